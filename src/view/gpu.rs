@@ -47,9 +47,6 @@ pub enum GpuError {
     NoSurface(#[from] wgpu::CreateSurfaceError),
 }
 
-/// Format of the textures of a device without a surface: gamma space, red first.
-pub(super) const OFFSCREEN_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
-
 /// A device that draws our frames, its queue, and the adapter they came from. A clone is the same device.
 #[derive(Clone, Debug)]
 pub struct Gpu {
@@ -68,6 +65,9 @@ pub struct Gpu {
 }
 
 impl Gpu {
+    /// Format of the targets of a device without a surface: gamma space, red first.
+    pub(super) const OFFSCREEN_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
+
     /// Creates a device that draws into textures only. It needs no display.
     ///
     /// `WGPU_BACKEND` (`vulkan`, `gl`, …) restricts the search.
@@ -119,7 +119,8 @@ impl Gpu {
 
         let mut refusals = Vec::new();
         for (adapter, info) in candidates {
-            let format = surface.map_or(OFFSCREEN_FORMAT, |surface| format_of(surface, &adapter));
+            let format =
+                surface.map_or(Gpu::OFFSCREEN_FORMAT, |surface| format_of(surface, &adapter));
             match Self::open(adapter, info.clone(), format).await {
                 Ok(gpu) => return Ok(gpu),
                 Err(refusal) => {

@@ -3,7 +3,6 @@
 use std::num::NonZero;
 use std::thread;
 
-use super::gpu::OFFSCREEN_FORMAT;
 use super::gpu_executor::new_texture;
 use super::{
     CpuExecutor, Drawing, Figure, FrameRenderer, Gpu, GpuExecutor, Panels, Readback, ReadbackError,
@@ -76,7 +75,7 @@ pub struct Offscreen {
 
 impl Offscreen {
     /// Format of every such texture: gamma space, red first.
-    pub const FORMAT: wgpu::TextureFormat = OFFSCREEN_FORMAT;
+    pub const FORMAT: wgpu::TextureFormat = Gpu::OFFSCREEN_FORMAT;
 
     /// Creates a texture of `size_px` with undefined contents.
     ///
