@@ -151,6 +151,7 @@ impl Gpu {
             ..Default::default()
         });
         let (device, queue) = request.await.map_err(|error| error.to_string())?;
+        device.on_uncaptured_error(Arc::new(|error| log::error!("graphics: {error}")));
         let pipelines = Pipelines::new(&device, format).await.map_err(|error| cause(&error))?;
 
         let lost = Arc::new(AtomicBool::new(false));
@@ -161,7 +162,6 @@ impl Gpu {
                 log::warn!("the graphics device is gone ({reason:?}): {message}");
             }
         });
-        device.on_uncaptured_error(Arc::new(|error| log::error!("graphics: {error}")));
         Ok(Self { device, queue, adapter, info, max_texture_side_px, pipelines, lost })
     }
 
