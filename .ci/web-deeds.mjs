@@ -292,10 +292,15 @@ export async function holdDeeds({ opened, hold, becomes, seconds, tick, driven, 
         const page = await opened("#scene=spring&method=rk4");
         await seconds(3);
         const from = await tick(page);
-        const again = page.puppeteer.waitForNavigation({ timeout: 60_000 });
-        await page.evaluate(() => document.getElementById("stage").getContext("webgl2").getExtension("WEBGL_lose_context").loseContext());
-        await again;
-        await becomes(page, () => document.documentElement.dataset.firstFrameMs !== undefined);
+        await page.evaluate(() => {
+            document.documentElement.dataset.isLost = "";
+            document.getElementById("stage").getContext("webgl2").getExtension("WEBGL_lose_context").loseContext();
+        });
+        // The page first puts its state into its address, and then loads again.
+        await becomes(page, () => {
+            const { isLost, firstFrameMs } = document.documentElement.dataset;
+            return isLost === undefined && firstFrameMs !== undefined;
+        });
         const link = await page.evaluate(() => location.hash);
         const goesOn = await becomes(page, async (from) => (await regatta).tick() > from, from);
         hold(`a lost canvas does not come back at tick ${from}: ${link}`, /^#scene=spring&method=rk4&tick=\d+&play$/.test(link) && goesOn);
