@@ -14,11 +14,11 @@ use super::pipelines::Pipelines;
 /// What draws frames.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum RendererChoice {
-    /// A graphics device, or the processor if there is none or only a driver that draws with the processor: our own
-    /// code takes less time.
+    /// A graphics card, or the processor if there is none. A software driver is not used, because our own code takes
+    /// less time than it.
     #[default]
     Auto,
-    /// A graphics device, a software one if need be.
+    /// A graphics device, which may be a software driver.
     Gpu,
     /// The processor.
     Cpu,

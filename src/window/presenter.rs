@@ -1,4 +1,4 @@
-//! Shows drawings in a window: by a graphics device, or by the processor if there is none but software.
+//! Shows drawings in a window: by a graphics device, or by the processor if there is no graphics card.
 
 use std::num::NonZero;
 use std::sync::Arc;
