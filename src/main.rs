@@ -2,8 +2,7 @@
 //! or in a scene file, 130 an interrupt.
 
 use std::io::{self, Write};
-use std::panic::{self, PanicHookInfo};
-#[cfg(target_os = "linux")]
+use std::panic::{self, Location, PanicHookInfo};
 use std::path::Path;
 #[cfg(target_os = "linux")]
 use std::process::Command;
@@ -11,10 +10,11 @@ use std::process::ExitCode;
 
 use regatta::commands::{self, Cli};
 
-/// Log filter: these libraries report errors only, EGL and the frames of Wayland windows nothing. EGL tries drivers
-/// that are not installed, and any failure that matters comes back as an error value. `RUST_LOG` overrides it.
+/// Log filter: these libraries report errors only, and some parts of them nothing: EGL and Vulkan, the frames of Wayland
+/// windows, and its protocol. Drivers that are not installed are tried too, and any failure that matters comes back as
+/// an error value. `RUST_LOG` overrides it.
 const LOG_FILTER: &str = "warn,arboard=error,wgpu_core=error,wgpu_hal=error,wgpu_hal::gles::egl=off,naga=error,\
-     sctk_adwaita=off";
+     wgpu_hal::vulkan::instance=off,sctk_adwaita=off,wayland_backend=off";
 
 fn main() -> ExitCode {
     panic::set_hook(Box::new(report_bug));
@@ -56,7 +56,7 @@ fn run() -> ExitCode {
 }
 
 /// Restarts the program with an `XDG_RUNTIME_DIR` in which there is no Wayland, if the variable is unset and a driver
-/// draws without a window. Mesa looks for Wayland before it lists its adapters, and libwayland complains about the
+/// may draw. Mesa looks for Wayland before it lists its adapters, and libwayland complains about the
 /// variable on standard error. A restart is the only safe way to set it before there are drivers and threads.
 #[cfg(target_os = "linux")]
 fn restart_without_wayland(cli: &Cli) {
@@ -65,7 +65,7 @@ fn restart_without_wayland(cli: &Cli) {
     const NOWHERE: &str = "/nonexistent";
     let is_path = |name| std::env::var_os(name).is_some_and(|it| Path::new(&it).is_absolute());
     let names_a_socket = is_path("WAYLAND_DISPLAY") || std::env::var_os("WAYLAND_SOCKET").is_some();
-    if !cli.needs_a_device_without_a_window() || is_path("XDG_RUNTIME_DIR") || names_a_socket {
+    if !cli.may_take_a_device() || is_path("XDG_RUNTIME_DIR") || names_a_socket {
         return;
     }
     let mut arguments = std::env::args_os();
@@ -83,6 +83,16 @@ fn report_bug(panic: &PanicHookInfo<'_>) {
         return commands::print_status(
             "error: the system starts no more threads for this program; let it (ulimit -u, ulimit -v)",
         );
+    }
+    // Nor is a display that lacks what winit takes for granted. Without `unwrap`'s Debug its messages say what.
+    let is_of_winit = |place: &Location<'_>| {
+        let mut parts = Path::new(place.file()).components();
+        parts.any(|part| part.as_os_str().to_string_lossy().starts_with("winit-"))
+    };
+    if panic.location().is_some_and(is_of_winit) && !said.contains("could not be loaded") {
+        return commands::print_status(&format!(
+            "error: no window can be opened on this display: {said}; regatta capture draws without a window"
+        ));
     }
     // The keyboard's library is loaded late, and its loader panics without it.
     if said.contains("could not be loaded") {

@@ -9,8 +9,9 @@ use std::thread;
 use std::time::{Duration, Instant};
 
 use winit::application::ApplicationHandler;
+use winit::error::EventLoopError;
 use winit::event::{StartCause, WindowEvent};
-use winit::event_loop::{ActiveEventLoop, ControlFlow, EventLoop, EventLoopProxy};
+use winit::event_loop::{ActiveEventLoop, ControlFlow, EventLoopProxy};
 use winit::window::{Fullscreen, WindowId};
 
 use crate::loops::loop_lab::LoopWorker;
@@ -24,6 +25,7 @@ use crate::view::{Modifiers, RendererChoice};
 
 mod canvas;
 mod clipboard;
+mod display;
 mod error;
 mod event;
 mod export;
@@ -73,9 +75,7 @@ pub fn run(
     files: SceneFiles,
 ) -> Result<Closed, WindowError> {
     let WindowSettings { seconds, tick, size, renderer, on_interrupt } = settings;
-    let event_loop = EventLoop::<Event>::with_user_event()
-        .build()
-        .map_err(|error| WindowError::NoDisplay(reason(&error)))?;
+    let event_loop = display::connect()?;
     let proxy = event_loop.create_proxy();
     if let Some(on_interrupt) = on_interrupt {
         let window = event_loop.create_proxy();
@@ -118,7 +118,10 @@ pub fn run(
     if let Some(tick) = tick {
         app.frames.go_to(tick, false);
     }
-    event_loop.run_app(&mut app).map_err(|error| WindowError::Refused(reason(&error)))?;
+    event_loop.run_app(&mut app).map_err(|error| match error {
+        EventLoopError::ExitFailure(_) => WindowError::Lost,
+        error => WindowError::Refused(reason(&error)),
+    })?;
     let App { outcome, frames, interrupted, size, .. } = app;
     outcome.map(|()| Closed { studio: frames.studio, interrupted, size })
 }

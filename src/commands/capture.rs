@@ -123,7 +123,8 @@ pub(super) struct CaptureArgs {
 
     /// What draws: auto, gpu or cpu [default: cpu]
     ///
-    /// The processor draws the same frames on every machine, without a driver.
+    /// The processor draws the same frames on every machine, without a driver. A pixel of a letter may have another
+    /// level on a processor of another kind.
     #[arg(long, value_name = "WHAT", hide_possible_values = true, hide_short_help = true)]
     renderer: Option<RendererName>,
 

@@ -13,7 +13,7 @@ use super::settings::CaptureSettings;
 use super::state_log::{self, StateLog};
 use super::terminal::{print_status, report_left_alone};
 use crate::studio::Studio;
-use crate::view::png;
+use crate::view::{PreparedFrame, png};
 
 /// Draws the run of `studio` into `folder`, and reports the result on standard error. The studio must be at the start
 /// of `experiment`. Returns the studio at the end of the run.
@@ -40,7 +40,9 @@ pub(super) fn record(
         state_log: &mut state_log,
         schedule,
     };
-    let encode = |drawn: &DrawnFrame| (png::encode(size_px, &drawn.rgba), fingerprint(&drawn.rgba));
+    let encode = |drawn: &DrawnFrame, _: &PreparedFrame| {
+        (png::encode(size_px, &drawn.rgba), fingerprint(&drawn.rgba))
+    };
     let drawn =
         run.draw_all(&interrupted, encode, |&DrawnFrame { tick, alpha, .. }, (file, pixels)| {
             folder.push(&file)?;

@@ -227,11 +227,15 @@ impl Cli {
 }
 
 impl Cli {
-    /// Whether the command draws with a graphics device and opens no window.
-    pub fn needs_a_device_without_a_window(&self) -> bool {
+    /// Whether a graphics device may draw for the command.
+    pub fn may_take_a_device(&self) -> bool {
         match &self.command {
             #[cfg(feature = "view")]
             Some(Command::Capture(args)) => args.may_take_a_device(),
+            #[cfg(feature = "window")]
+            Some(Command::Play(args)) => args.may_take_a_device(),
+            #[cfg(feature = "window")]
+            None => self.play.may_take_a_device(),
             _ => false,
         }
     }

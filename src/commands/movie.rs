@@ -50,7 +50,7 @@ pub(super) fn record(
         state_log: &mut state_log,
         schedule: capture.schedule,
     };
-    let done = run.draw_all(&interrupted, |_| (), |drawn, ()| movie.push(drawn))?;
+    let done = run.draw_all(&interrupted, |_, _| (), |drawn, ()| movie.push(drawn))?;
     if done < frames {
         drop(movie);
         let whole = match output.file() {

@@ -65,7 +65,7 @@ impl Pipeline<'_> {
     pub(super) fn draw_all<T: Send>(
         self,
         interrupted: &AtomicBool,
-        encode: impl Fn(&DrawnFrame) -> T + Sync,
+        encode: impl Fn(&DrawnFrame, &PreparedFrame) -> T + Sync,
         mut take: impl FnMut(&DrawnFrame, T) -> Result<(), Error> + Send,
     ) -> Result<u32, Error> {
         let progress = progress(self.schedule.frames, "frames");
@@ -87,7 +87,7 @@ impl Pipeline<'_> {
         self,
         workers: usize,
         interrupted: &AtomicBool,
-        encode: impl Fn(&DrawnFrame) -> T + Sync,
+        encode: impl Fn(&DrawnFrame, &PreparedFrame) -> T + Sync,
         take: impl FnMut(&DrawnFrame, T) -> Result<(), Error> + Send,
     ) -> Result<u32, Error> {
         let pool = jobs::pool(workers)?;
@@ -103,12 +103,12 @@ impl Pipeline<'_> {
                 .spawn_scoped(threads, move || deliver_in_order(&encoded, &emptied, take))
                 .map_err(jobs::no_threads)?;
             let drawn = pool.in_place_scope_fifo(|jobs| {
-                self.prepare(&buffers, interrupted, |prepared, mut drawn| {
+                self.prepare(&buffers, interrupted, |mut prepared, mut drawn| {
                     let (results, encode, executors) = (results.clone(), &encode, &executors);
                     jobs.spawn_fifo(move |_| {
                         let made = panic::catch_unwind(AssertUnwindSafe(|| {
-                            finish(prepared, executors, &mut drawn.rgba);
-                            encode(&drawn)
+                            finish(&mut prepared, executors, &mut drawn.rgba);
+                            encode(&drawn, &prepared)
                         }));
                         // The receiver is gone once `take` has failed.
                         let _ = results.send((drawn, made));
@@ -152,7 +152,7 @@ impl Pipeline<'_> {
 }
 
 /// Draws a frame with an executor that no other thread uses.
-fn finish(prepared: PreparedFrame, executors: &Mutex<Vec<CpuExecutor>>, rgba: &mut Vec<u8>) {
+fn finish(prepared: &mut PreparedFrame, executors: &Mutex<Vec<CpuExecutor>>, rgba: &mut Vec<u8>) {
     let executors = || executors.lock().unwrap_or_else(PoisonError::into_inner);
     let mut executor = executors().pop().expect("each worker has one");
     prepared.finish(&mut executor, rgba);
@@ -257,7 +257,7 @@ mod tests {
         let (studio, state_log) = (&mut studio, &mut state_log);
         let run = Pipeline { renderer, studio, state_log, schedule: SCHEDULE };
         // Every other frame takes longer to encode, beginning with the first.
-        let encode = |drawn: &DrawnFrame| {
+        let encode = |drawn: &DrawnFrame, _: &PreparedFrame| {
             thread::sleep(Duration::from_millis(if drawn.frame.is_multiple_of(2) { 5 } else { 0 }));
             drawn.frame
         };
@@ -290,7 +290,7 @@ mod tests {
             state_log: &mut state_log,
             schedule: SCHEDULE,
         };
-        let encode = |drawn: &DrawnFrame| assert_ne!(drawn.frame, 4, "a bug");
+        let encode = |drawn: &DrawnFrame, _: &PreparedFrame| assert_ne!(drawn.frame, 4, "a bug");
         let run = || run.draw_with_workers(3, &AtomicBool::new(false), encode, |_, ()| Ok(()));
         assert!(panic::catch_unwind(AssertUnwindSafe(run)).is_err());
     }
@@ -307,7 +307,7 @@ mod tests {
             schedule: SCHEDULE,
         };
         let [on_their_way, most] = [0, 0].map(AtomicUsize::new);
-        let encode = |drawn: &DrawnFrame| {
+        let encode = |drawn: &DrawnFrame, _: &PreparedFrame| {
             most.fetch_max(on_their_way.fetch_add(1, Ordering::SeqCst) + 1, Ordering::SeqCst);
             // The first frame is delayed until all buffers are in use, and a little longer.
             while drawn.frame == 0 && most.load(Ordering::SeqCst) < 3 + SPARE_BUFFERS {

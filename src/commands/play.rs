@@ -92,6 +92,13 @@ pub(super) struct PlayArgs {
     reduced_motion: bool,
 }
 
+impl PlayArgs {
+    /// Whether a graphics device may draw.
+    pub(super) fn may_take_a_device(&self) -> bool {
+        self.renderer != Some(RendererName::Cpu)
+    }
+}
+
 /// Directory into which the pictures are drawn if there is no display.
 const FRAMES_DIR: &str = "regatta-frames";
 /// Number of pictures if there is no display. They are enough to show how each method behaves, and even software draws
@@ -206,8 +213,15 @@ fn without_display(
         None => FRAMES,
     };
     let folder = FrameFolder::new_sibling(FRAMES_DIR)?;
-    let has_display = ["DISPLAY", "WAYLAND_DISPLAY"].iter().any(|name| env::var_os(name).is_some());
-    let remedy = if has_display { format!("; {WINDOW_LIBRARIES}") } else { String::new() };
+    // winit names no library, and no display.
+    let remedy = match ["WAYLAND_DISPLAY", "DISPLAY"].map(env::var) {
+        _ if reason.contains("librar") => format!("; {WINDOW_LIBRARIES}"),
+        [Ok(compositor), _] if !compositor.is_empty() => {
+            format!("; WAYLAND_DISPLAY is {compositor}")
+        }
+        [_, Ok(display)] if !display.is_empty() => format!("; DISPLAY is {display}"),
+        _ => String::new(),
+    };
     print_status(&format!(
         "no display to open a window on ({reason}{remedy}); drawing {} s of it into {} instead",
         f64::from(frames) / f64::from(FPS),
@@ -225,7 +239,7 @@ fn without_display(
         motion: !args.reduced_motion,
         theme: args.theme.map(Theme::from).unwrap_or_default(),
         mark_every: state_log::usual_stride(schedule.ticks(&studio)),
-        renderer: RendererChoice::Cpu,
+        renderer: args.renderer.map_or(RendererChoice::Cpu, RendererChoice::from),
     };
     let last = args.seconds.map(|seconds| studio.race().nearest_tick(seconds));
     let mut studio = clip::record(experiment, studio, capture, folder)?;

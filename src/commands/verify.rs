@@ -67,13 +67,14 @@ pub(super) struct VerifyArgs {
 
     /// The largest allowed difference of a channel, 0 to 255
     ///
-    /// The default is 0, or 2 for frames of a graphics device or another processor.
+    /// The default is 0, or 2 for letters of another processor and for frames of a graphics device, where 1 pixel of
+    /// 100 000 may differ by more.
     #[arg(long, value_name = "N")]
     max_channel: Option<u8>,
 
     /// The largest allowed percentage of pixels off by more than 1
     ///
-    /// The default is 0, or 0.01 for frames of a graphics device or another processor.
+    /// The default is 0, or 0.01 where the default of --max-channel is 2.
     #[arg(long, value_name = "PERCENT", value_parser = percent)]
     max_pixels: Option<f64>,
 

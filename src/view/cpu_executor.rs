@@ -15,7 +15,7 @@ use std::thread;
 use egui::epaint::{Vertex, WHITE_UV};
 use egui::{Color32, ColorImage, ImageData, TextureId};
 
-use super::drawing::{Draw, DrawKind, Drawing, Mesh, SeaRect, StrokeVertex};
+use super::drawing::{DrawKind, Drawing, SeaRect, StrokeVertex};
 use super::screen_transform::ScreenTransform;
 use spans::{Pixel, Ramp};
 use triangle::{Triangle, Window};
@@ -155,15 +155,17 @@ impl Band<'_> {
             let at = Placement { window, transform };
             match draw.kind {
                 DrawKind::Stroke => {
-                    corners(&drawing.strokes, draw).for_each(|corners| self.stroke(at, corners));
+                    let corners = drawing.strokes.corners(&draw.indices);
+                    corners.for_each(|corners| self.stroke(at, corners));
                 }
                 DrawKind::OpaqueFill => {
-                    corners(&drawing.triangles, draw).for_each(|corners| self.fill(at, corners));
+                    let corners = drawing.triangles.corners(&draw.indices);
+                    corners.for_each(|corners| self.fill(at, corners));
                 }
                 DrawKind::Textured(id) => {
                     let Some(texture) = textures.0.get(&id) else { continue };
-                    corners(&drawing.triangles, draw)
-                        .for_each(|corners| self.textured(at, corners, texture));
+                    let corners = drawing.triangles.corners(&draw.indices);
+                    corners.for_each(|corners| self.textured(at, corners, texture));
                 }
             }
         }
@@ -314,13 +316,6 @@ impl Placement<'_> {
     fn triangle(self, corners: [[f32; 2]; 3]) -> Option<Triangle> {
         Triangle::new(corners.map(|corner| self.transform.px(corner)), self.window)
     }
-}
-
-/// Corners of the triangles of a draw.
-fn corners<'m, V>(mesh: &'m Mesh<V>, draw: &Draw) -> impl Iterator<Item = [&'m V; 3]> {
-    let indices = &mesh.indices[draw.indices.start as usize..draw.indices.end as usize];
-    let triangles = indices.as_chunks::<3>().0;
-    triangles.iter().map(|corners| corners.map(|corner| &mesh.vertices[corner as usize]))
 }
 
 fn one_colour([a, b, c]: [Color32; 3]) -> Option<Pixel> {

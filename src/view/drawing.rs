@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use bytemuck::{Pod, Zeroable};
-use egui::epaint::{ImageDelta, Vertex};
+use egui::epaint::{ImageDelta, Vertex, WHITE_UV};
 use egui::{Color32, TextureId};
 
 use super::screen_transform::ScreenTransform;
@@ -24,6 +24,37 @@ pub struct Drawing {
     pub(super) draws: Vec<Draw>,
     pub(super) triangles: Mesh<Vertex>,
     pub(super) strokes: Mesh<StrokeVertex>,
+}
+
+impl Drawing {
+    /// Whether each pixel, in rows from the top, lies in the rectangle of a letter.
+    pub(super) fn has_letters(&self) -> Vec<bool> {
+        let [width, height] = self.size_px.map(|side| side as usize);
+        let mut has_letters = vec![false; width * height];
+        let of_letters = DrawKind::Textured(TextureId::default());
+        for draw in self.draws.iter().filter(|draw| draw.kind == of_letters) {
+            let transform = &self.transforms[draw.place as usize];
+            let [left, top, width_px, height_px] = draw.scissor_px;
+            let scissor = [[left, left + width_px], [top, top + height_px]];
+            let letters = self.triangles.corners(&draw.indices);
+            for corners in letters.filter(|corners| corners.iter().any(|it| it.uv != WHITE_UV)) {
+                let at_px = corners.map(|corner| transform.px(corner.pos.into()));
+                let [columns, rows] = [0, 1].map(|axis| {
+                    let at = at_px.map(|at| at[axis]);
+                    let within = |px: f32| {
+                        (px as usize).clamp(scissor[axis][0] as usize, scissor[axis][1] as usize)
+                    };
+                    let low = at.into_iter().fold(f32::INFINITY, f32::min);
+                    let high = at.into_iter().fold(f32::NEG_INFINITY, f32::max);
+                    within(low)..within(high.ceil())
+                });
+                for row in rows {
+                    has_letters[row * width..][columns.clone()].fill(true);
+                }
+            }
+        }
+        has_letters
+    }
 }
 
 /// Changes of textures: new ones and parts of old ones before the draws, removed ones after them.
@@ -106,6 +137,15 @@ pub(super) struct Mesh<V> {
 impl<V> Default for Mesh<V> {
     fn default() -> Self {
         Self { vertices: Vec::new(), indices: Vec::new() }
+    }
+}
+
+impl<V> Mesh<V> {
+    /// Corners of the triangles that have these indices.
+    pub(super) fn corners(&self, indices: &Range<u32>) -> impl Iterator<Item = [&V; 3]> {
+        let indices = &self.indices[indices.start as usize..indices.end as usize];
+        let triangles = indices.as_chunks::<3>().0;
+        triangles.iter().map(|corners| corners.map(|corner| &self.vertices[corner as usize]))
     }
 }
 

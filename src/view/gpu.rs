@@ -97,12 +97,19 @@ impl Gpu {
         }
         for adapter in adapters {
             let info = adapter.get_info();
-            if surface.is_some_and(|surface| !adapter.is_surface_supported(surface)) {
+            // A display of few colours is supported by some drivers, and has no format that they draw in.
+            let format = match surface {
+                Some(surface) => format_of(surface, &adapter),
+                None => Some(Self::OFFSCREEN_FORMAT),
+            };
+            let Some(format) = format else {
                 unfit.push(format!("{} cannot present to this window", title(&info)));
-            } else if info.device_type == wgpu::DeviceType::Cpu && choice != RendererChoice::Gpu {
+                continue;
+            };
+            if info.device_type == wgpu::DeviceType::Cpu && choice != RendererChoice::Gpu {
                 unfit.push(format!("{} draws with the processor", title(&info)));
             } else {
-                candidates.push((adapter, info));
+                candidates.push((adapter, info, format));
             }
         }
         if candidates.is_empty() {
@@ -115,12 +122,10 @@ impl Gpu {
             let reasons = if unfit.is_empty() { none() } else { unfit.join(", ") };
             return Err(GpuError::NoAdapter { reasons });
         }
-        candidates.sort_by_key(|(_, info)| rank(info));
+        candidates.sort_by_key(|(_, info, _)| rank(info));
 
         let mut refusals = Vec::new();
-        for (adapter, info) in candidates {
-            let format =
-                surface.map_or(Gpu::OFFSCREEN_FORMAT, |surface| format_of(surface, &adapter));
+        for (adapter, info, format) in candidates {
             match Self::open(adapter, info.clone(), format).await {
                 Ok(gpu) => return Ok(gpu),
                 Err(refusal) => {
@@ -189,12 +194,13 @@ fn cause(mut error: &dyn Error) -> String {
     error.to_string().split_whitespace().collect::<Vec<_>>().join(" ")
 }
 
-/// The format of the surface's textures: one in gamma space if the surface has any.
-fn format_of(surface: &wgpu::Surface<'_>, adapter: &wgpu::Adapter) -> wgpu::TextureFormat {
+/// The format of the surface's textures: one in gamma space if the surface has any. `None` if the adapter cannot
+/// present to the surface.
+fn format_of(surface: &wgpu::Surface<'_>, adapter: &wgpu::Adapter) -> Option<wgpu::TextureFormat> {
     let formats = surface.get_capabilities(adapter).formats;
     let gamma = [wgpu::TextureFormat::Bgra8Unorm, wgpu::TextureFormat::Rgba8Unorm];
     let found = gamma.into_iter().find(|format| formats.contains(format));
-    found.or(formats.first().copied()).unwrap_or(wgpu::TextureFormat::Bgra8Unorm)
+    found.or(formats.first().copied())
 }
 
 fn title(info: &wgpu::AdapterInfo) -> String {

@@ -20,6 +20,7 @@ mod meshes;
 mod offscreen_renderer;
 mod panels;
 mod pipelines;
+mod pixel_difference;
 pub mod png;
 mod readback;
 mod screen;
@@ -46,6 +47,7 @@ pub use gpu_executor::GpuExecutor;
 pub use keyboard::{Meaning, Modifiers, bound_key, command_of};
 pub use offscreen_renderer::{FrameSizeError, Offscreen, OffscreenRenderer, PreparedFrame};
 pub use panels::Panels;
+pub use pixel_difference::{PixelDifference, PixelLimits};
 pub use readback::{Readback, ReadbackError};
 pub use screen::Screen;
 

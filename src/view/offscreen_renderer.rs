@@ -1,5 +1,6 @@
 //! Frames without a window, for captures, screenshots and tests.
 
+use std::mem;
 use std::num::NonZero;
 use std::thread;
 
@@ -126,12 +127,21 @@ enum Prepared {
 }
 
 impl PreparedFrame {
+    /// Whether each pixel, in rows from the top, lies in the rectangle of a letter. Empty if a device has drawn the
+    /// frame.
+    pub fn has_letters(&self) -> Vec<bool> {
+        match &self.0 {
+            Prepared::Drawing(drawing, _) => drawing.has_letters(),
+            Prepared::Rows(_) => Vec::new(),
+        }
+    }
+
     /// Replaces `rgba` by the frame's pixels, top row first. The executor must draw frames of one renderer only, in
-    /// any order.
-    pub fn finish(self, executor: &mut CpuExecutor, rgba: &mut Vec<u8>) {
-        match self.0 {
-            Prepared::Drawing(drawing, textures) => executor.execute(&drawing, &textures, rgba),
-            Prepared::Rows(rows) => *rgba = rows,
+    /// any order. Call it once.
+    pub fn finish(&mut self, executor: &mut CpuExecutor, rgba: &mut Vec<u8>) {
+        match &mut self.0 {
+            Prepared::Drawing(drawing, textures) => executor.execute(drawing, textures, rgba),
+            Prepared::Rows(rows) => mem::swap(rows, rgba),
         }
     }
 }

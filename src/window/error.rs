@@ -11,6 +11,15 @@ pub enum WindowError {
     /// The window system refused.
     #[error("the window system refused: {0}")]
     Refused(String),
+    /// The window system refused a picture drawn by the processor.
+    #[error(
+        "the window system takes no picture by the processor: {0}; give it a display of 24 bits a pixel, or draw \
+         without a window: regatta capture"
+    )]
+    NoPicture(String),
+    /// The window system ended before the window.
+    #[error("the connection to the window system was lost")]
+    Lost,
     /// There is no graphics device for the window.
     #[error(transparent)]
     Gpu(#[from] GpuError),

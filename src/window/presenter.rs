@@ -5,7 +5,7 @@ use std::sync::Arc;
 use std::thread;
 
 use pollster::block_on;
-use softbuffer::{Context, Surface};
+use softbuffer::{Context, SoftBufferError, Surface};
 use winit::event_loop::{ActiveEventLoop, OwnedDisplayHandle};
 use winit::window::Window;
 
@@ -191,6 +191,16 @@ impl Device {
     }
 }
 
+/// The error for a picture that the window system refuses.
+fn refused(error: SoftBufferError) -> WindowError {
+    WindowError::NoPicture(match error {
+        SoftBufferError::PlatformError(Some(said), Some(cause)) => format!("{said}: {cause}"),
+        SoftBufferError::PlatformError(Some(said), None) => said,
+        SoftBufferError::PlatformError(None, Some(cause)) => cause.to_string(),
+        error => error.to_string(),
+    })
+}
+
 /// Our own code and a buffer of the window system.
 pub(super) struct Processor {
     surface: Surface<OwnedDisplayHandle, Arc<Window>>,
@@ -202,7 +212,6 @@ pub(super) struct Processor {
 
 impl Processor {
     fn new(display: OwnedDisplayHandle, window: &Arc<Window>) -> Result<Self, WindowError> {
-        let refused = |error: softbuffer::SoftBufferError| WindowError::Refused(error.to_string());
         let context = Context::new(display).map_err(refused)?;
         let surface = Surface::new(&context, Arc::clone(window)).map_err(refused)?;
         log::info!("drawing with the processor");
@@ -212,7 +221,6 @@ impl Processor {
     }
 
     fn present(&mut self, drawing: &Drawing, window: &Window) -> Result<(), WindowError> {
-        let refused = |error: softbuffer::SoftBufferError| WindowError::Refused(error.to_string());
         let rows = &mut self.rows;
         self.executor.execute(drawing, &self.textures.update(drawing), rows);
         let [Some(width), Some(height)] = self.size_px.map(NonZero::new) else { return Ok(()) };

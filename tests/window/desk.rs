@@ -318,11 +318,17 @@ pub(crate) struct Display {
 impl Display {
     /// Starts a server, or says in the name of `test` why there is none.
     pub(crate) fn open(test: &str) -> Option<Self> {
+        Self::of_screen(test, "2600x1500x24")
+    }
+
+    /// The same with a screen of this width, height and number of bits a pixel.
+    pub(crate) fn of_screen(test: &str, screen: &str) -> Option<Self> {
         if let Err(error) = Command::new("xdotool").arg("version").output() {
             return skip(test, &format!("xdotool: {error}"));
         }
         let server = Command::new("Xvfb")
-            .args("-displayfd 1 -noreset -nolisten tcp -screen 0 2600x1500x24".split(' '))
+            .args("-displayfd 1 -noreset -nolisten tcp -screen 0".split(' '))
+            .arg(screen)
             .stdin(Stdio::null())
             .stdout(Stdio::piped())
             .stderr(Stdio::null())

@@ -87,6 +87,32 @@ fn without_the_requested_adapter_the_program_ends_quickly_with_a_message() {
 }
 
 #[test]
+fn a_display_of_too_few_colours_ends_the_program_in_one_plain_line() {
+    let test = "a_display_of_too_few_colours_ends_the_program_in_one_plain_line";
+    let Some(display) = Display::of_screen(test, "1280x800x16") else { return };
+    for (renderer, expected) in [
+        ("cpu", "error: the window system takes no picture by the processor: "),
+        ("gpu", "error: no usable graphics adapter: "),
+    ] {
+        let mut program = display.start(&format!("--renderer {renderer}"), &[]);
+        let status = until("the end", || program.ended());
+        let said = program.said();
+        assert_eq!(status.code(), Some(1), "{said}");
+        assert!(said.starts_with(expected) && said.lines().count() == 1, "{said}");
+    }
+}
+
+#[test]
+fn a_window_opens_in_silence_beside_traces_of_wayland() {
+    let test = "a_window_opens_in_silence_beside_traces_of_wayland";
+    for variables in [[("WAYLAND_DISPLAY", "gone")], [("XDG_RUNTIME_DIR", "")]] {
+        let opened = Desk::open_with(test, "--scene spring --seconds 1", &variables);
+        let Some(desk) = opened else { return };
+        desk.ends();
+    }
+}
+
+#[test]
 fn an_unmapped_window_runs_on_in_real_time() {
     let test = "an_unmapped_window_runs_on_in_real_time";
     let Some(desk) = Desk::open(test, "--scene ship --tick-hz 2 --seconds 3") else { return };

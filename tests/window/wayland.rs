@@ -95,3 +95,18 @@ fn a_wayland_compositor_shows_the_stage_whatever_draws_it() {
         until("the mass on the screen", || body(&compositor.screenshot()));
     }
 }
+
+#[test]
+fn a_lost_compositor_is_told_of_once() {
+    let Some(mut compositor) = Compositor::open("a_lost_compositor_is_told_of_once") else {
+        return;
+    };
+    let arguments = "--scene spring --method rk4 --theme dark --renderer cpu";
+    let variables = [("WAYLAND_DISPLAY", "sea")];
+    let mut program = Program::start(compositor.folder.path(), arguments, &variables);
+    until("the mass on the screen", || body(&compositor.screenshot()));
+    program::end(&mut compositor.server);
+    let status = until("the end", || program.ended());
+    let lost = "error: the connection to the window system was lost\n";
+    assert_eq!((status.code(), program.said().as_str()), (Some(1), lost));
+}

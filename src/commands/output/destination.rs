@@ -290,8 +290,12 @@ fn print_bytes(bytes: &[u8]) -> Result<(), Error> {
 
 /// Returns the error for a file that could not be written to its end.
 fn unfinished(path: &Path, option: &'static str, error: io::Error) -> Error {
+    let is_there = !matches!(error.kind(), io::ErrorKind::NotFound | io::ErrorKind::NotADirectory);
     let error = Error::of_file("write", path, option)(error);
-    error.and("nothing is left of it, and the same command writes all of it")
+    match is_there {
+        true => error.and("nothing is left of it, and the same command writes all of it"),
+        false => error,
+    }
 }
 
 fn taken(path: &Path, option: &str) -> Error {

@@ -149,7 +149,9 @@ fn add_pixels(report: &mut Report, rerun: &Rerun, frames: Option<Frames>) -> Res
     print_line(&match (changes.len(), are_exact) {
         (0, true) => format!("pixels: same: {all}, every pixel"),
         (0, false) => format!("pixels: same within the limits: {all}"),
-        (changed, _) => format!("pixels: {changed} of {all} differ"),
+        (changed, _) => {
+            format!("pixels: {changed} of {all} {}", if frames == 1 { "differs" } else { "differ" })
+        }
     })?;
     let same = changes.is_empty();
     report.field("pixels", json!({ "same": same, "frames": frames, "differences": changes }));
@@ -200,7 +202,9 @@ fn read(path: &Path) -> Result<Manifest, String> {
         Unreadable::System(error) => format!("{error}; `regatta capture` writes it"),
         error => error.to_string(),
     })?;
-    let value: Value = serde_json::from_slice(&bytes)
+    // Some editors begin a file with a byte order mark.
+    let bytes = bytes.strip_prefix("\u{feff}".as_bytes()).unwrap_or(&bytes);
+    let value: Value = serde_json::from_slice(bytes)
         .map_err(|error| format!("it is not JSON: {error}; capture again"))?;
     match value["schema"].as_u64() {
         Some(schema) if schema == u64::from(SCHEMA) => {}
@@ -211,7 +215,7 @@ fn read(path: &Path) -> Result<Manifest, String> {
         }
         None => return Err("it does not name its schema; capture again".into()),
     }
-    let manifest: Manifest = serde_json::from_slice(&bytes)
+    let manifest: Manifest = serde_json::from_slice(bytes)
         .map_err(|error| format!("it does not follow schema {SCHEMA}: {error}; capture again"))?;
     settings::check(&manifest)?;
     Ok(manifest)

@@ -1,5 +1,6 @@
 //! Draws the frames of a capture again, and compares them with the capture's files.
 
+use std::fmt::{self, Display, Formatter};
 use std::fs;
 
 use super::{Frames, Rerun, VerifyArgs};
@@ -16,12 +17,9 @@ use crate::commands::schedule::Schedule;
 use crate::commands::state_log::StateLog;
 use crate::commands::terminal::print_status;
 use crate::regular_file;
+use crate::sim::number::counted;
 use crate::studio::Studio;
-use crate::view::png;
-
-/// Limits for frames of a graphics device, or with letters by other instructions. They are a little above the
-/// differences seen so far.
-const OTHER_ADAPTER: (u8, f64) = (2, 0.01);
+use crate::view::{PixelDifference, PixelLimits, PreparedFrame, png};
 
 /// Maximum number of bytes per pixel in a picture file, which has up to four channels of 16 bits.
 const BYTES_PER_PIXEL: usize = 8;
@@ -29,51 +27,46 @@ const BYTES_PER_PIXEL: usize = 8;
 /// Maximum number of bytes in a picture file besides its pixels.
 const MAX_NOTES_BYTES: usize = 1 << 20;
 
-/// The difference that a frame may have.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Limits {
-    /// Maximum difference of a channel of a pixel.
-    pub(super) max_channel: u8,
-    /// Maximum share of the pixels that may differ by more than 1, in percent.
-    pub(super) max_pixels_percent: f64,
+/// The difference that the frames may have.
+#[derive(Clone, Copy)]
+struct Limits {
+    of_pixels: PixelLimits,
+    /// Whether only pixels of letters may differ.
+    of_letters: bool,
 }
 
 impl Limits {
-    /// Limits of the options, or else of the adapter. The adapter that drew the frames may not differ at all.
-    pub(super) fn of(same_adapter: bool, max_channel: Option<u8>, max_pixels: Option<f64>) -> Self {
-        let (channel, pixels) = if same_adapter { (0, 0.0) } else { OTHER_ADAPTER };
-        Self {
-            max_channel: max_channel.unwrap_or(channel),
-            max_pixels_percent: max_pixels.unwrap_or(pixels),
-        }
+    /// Returns the limits of the options, or else those for these adapters. The adapter that drew the frames may not
+    /// differ at all, and the same one with other letters only in those.
+    fn of(args: &VerifyArgs, was: &Adapter, is: &Adapter) -> Self {
+        let is_given = args.max_channel.is_some() || args.max_pixels.is_some();
+        let with_these_letters = Adapter { driver_info: is.driver_info.clone(), ..was.clone() };
+        let of_letters = !is_given && was != is && with_these_letters == *is;
+        let usual = if was == is { PixelLimits::EXACT } else { PixelLimits::OF_EXECUTORS };
+        let of_pixels = PixelLimits {
+            max_channel: args.max_channel.unwrap_or(usual.max_channel),
+            max_pixels_percent: args.max_pixels.unwrap_or(usual.max_pixels_percent),
+            strays: if is_given || of_letters { 0 } else { usual.strays },
+        };
+        Self { of_pixels, of_letters }
     }
 
-    fn allow(self, difference: &PixelDifference) -> bool {
-        let percent = 100.0 * difference.off_by_more_than_one as f64 / difference.pixels as f64;
-        difference.worst <= self.max_channel && percent <= self.max_pixels_percent
+    fn allow(self, difference: &PixelDifference, only_letters_differ: impl Fn() -> bool) -> bool {
+        self.of_pixels.allow(difference)
+            && (difference.worst() == 0 || !self.of_letters || only_letters_differ())
     }
 }
 
-/// The difference between two pictures of the same size.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-struct PixelDifference {
-    pixels: usize,
-    off: usize,
-    off_by_more_than_one: usize,
-    worst: u8,
-}
-
-fn difference(a: &[u8], b: &[u8]) -> PixelDifference {
-    let mut difference = PixelDifference { pixels: a.len() / 4, ..PixelDifference::default() };
-    if a != b {
-        for (a, b) in a.chunks_exact(4).zip(b.chunks_exact(4)) {
-            let worst = a.iter().zip(b).map(|(a, b)| a.abs_diff(*b)).max().unwrap_or(0);
-            difference.off += usize::from(worst > 0);
-            difference.off_by_more_than_one += usize::from(worst > 1);
-            difference.worst = difference.worst.max(worst);
+impl Display for Limits {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        let PixelLimits { max_channel, max_pixels_percent, strays } = self.of_pixels;
+        let whose = if self.of_letters { " of a letter" } else { "" };
+        write!(f, "a channel{whose} may differ by {max_channel}, ")?;
+        if strays > 0 {
+            write!(f, "in {} of 100 000 by more, ", counted(strays, "pixel"))?;
         }
+        write!(f, "and {max_pixels_percent} % of a frame's pixels by more than 1")
     }
-    difference
 }
 
 /// Draws every frame of the capture again, and compares it with its file. Also returns the studio at the end, and the
@@ -86,7 +79,12 @@ pub(super) fn judge(
     check_differences(args, manifest)?;
     let cannot = |error: Error| error.or_mistake().within("the pixels cannot be judged");
     let mut renderer = capture.renderer().map_err(cannot)?;
-    let limits = limits(args, &manifest.adapter, &adapter(&renderer));
+    let (was, is) = (&manifest.adapter, adapter(&renderer));
+    let limits = Limits::of(args, was, &is);
+    if *was != is {
+        let name = |a: &Adapter| format!("{} ({}, {})", a.name, a.backend, a.driver_info);
+        print_status(&format!("drawn then with {}, now with {}: {limits}", name(was), name(&is)));
+    }
     let frames = manifest.frames.len() as u32;
     let interrupted = watch_for_interrupt();
     let (mut studio, mut state_log) = rerun.begin();
@@ -97,9 +95,9 @@ pub(super) fn judge(
         schedule: Schedule { frames, ..capture.schedule },
     };
     let mut differences = Vec::new();
-    let compare = |drawn: &DrawnFrame| {
+    let compare = |drawn: &DrawnFrame, prepared: &PreparedFrame| {
         let entry = &manifest.frames[drawn.frame as usize];
-        compare(entry, capture.size_px, &drawn.rgba, limits, args)
+        compare(entry, capture.size_px, (&drawn.rgba, prepared), limits, args)
     };
     let drawn = run.draw_all(&interrupted, compare, |_, difference| {
         differences.push(difference);
@@ -109,25 +107,8 @@ pub(super) fn judge(
     if done < frames {
         return Err(cannot(interrupted_after(done, frames, "nothing is written")));
     }
-    let are_exact = limits.max_channel == 0;
+    let are_exact = limits.of_pixels.max_channel == 0;
     Ok((Frames { are_exact, differences }, (studio, state_log)))
-}
-
-/// The limits for these options and adapters. Reports an adapter other than the one that drew the frames.
-fn limits(args: &VerifyArgs, was: &Adapter, is: &Adapter) -> Limits {
-    let limits = Limits::of(was == is, args.max_channel, args.max_pixels);
-    if was != is {
-        let name = |a: &Adapter| format!("{} ({}, {})", a.name, a.backend, a.driver_info);
-        print_status(&format!(
-            "drawn then with {}, now with {}: a channel may differ by {}, and {} % of a frame's \
-             pixels by more than 1",
-            name(was),
-            name(is),
-            limits.max_channel,
-            limits.max_pixels_percent,
-        ));
-    }
-    limits
 }
 
 /// Creates the directory for pictures of differences, if one is requested. Fails if a picture would replace a foreign
@@ -153,7 +134,7 @@ fn check_differences(args: &VerifyArgs, manifest: &Manifest) -> Result<(), Error
 fn compare(
     entry: &FrameEntry,
     size_px: [u32; 2],
-    now: &[u8],
+    (now, prepared): (&[u8], &PreparedFrame),
     limits: Limits,
     args: &VerifyArgs,
 ) -> Option<String> {
@@ -165,24 +146,30 @@ fn compare(
             Ok(picture) => picture.into_rgba8(),
             Err(error) => return Some(format!("cannot be decoded: {error}")),
         },
+        Err(error) if error.is_missing() => return Some("is missing".into()),
         Err(error) => return Some(format!("cannot be read: {error}")),
     };
     if then.dimensions() != size_px.into() {
         let (width, height) = then.dimensions();
         return Some(format!("is {width}x{height}, not {}x{}", size_px[0], size_px[1]));
     }
-    let difference = difference(&then, now);
+    let difference = PixelDifference::between(&then, now, |_| true);
     let was_altered = fingerprint(&then) != entry.pixels;
-    if limits.allow(&difference) && !was_altered {
+    let only_letters_differ = || {
+        let has_letters = prepared.has_letters();
+        PixelDifference::between(&then, now, |pixel| !has_letters[pixel]).worst() == 0
+    };
+    if limits.allow(&difference, only_letters_differ) && !was_altered {
         return None;
     }
-    let mut what = format!("{} pixels off, the worst by {}", difference.off, difference.worst);
+    let (off, worst) = (difference.beyond(0), difference.worst());
+    let mut what = format!("{} off, the worst by {worst}", counted(off, "pixel"));
     if was_altered {
         what += "; the file no longer matches its hash in the manifest";
     }
-    if let Some(directory) = args.diff.as_ref().filter(|_| difference.off > 0) {
+    if let Some(directory) = args.diff.as_ref().filter(|_| off > 0) {
         let path = directory.join(&entry.file);
-        let picture = png::encode(size_px, &picture_of(&then, now, difference.worst));
+        let picture = png::encode(size_px, &picture_of(&then, now, worst));
         let written =
             begin_file(&path).and_then(|file| file.write_whole(&picture, IfExists::Replace));
         what += &match written {
@@ -207,26 +194,8 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_difference_of_one_level_in_one_pixel_is_detected() {
-        let black = vec![0; 4 * 200];
-        let mut other = black.clone();
-        assert_eq!(
-            difference(&black, &other),
-            PixelDifference { pixels: 200, ..Default::default() }
-        );
-        other[7] = 1;
-        let one = difference(&black, &other);
-        assert_eq!((one.off, one.off_by_more_than_one, one.worst), (1, 0, 1));
-        assert!(!Limits::of(true, None, None).allow(&one));
-        assert!(Limits::of(false, None, None).allow(&one));
-        other[40] = 3;
-        let two = difference(&black, &other);
-        assert_eq!((two.off, two.off_by_more_than_one, two.worst), (2, 1, 3));
-        assert!(!Limits::of(false, None, None).allow(&two));
-        assert!(!Limits::of(false, Some(3), Some(0.4)).allow(&two));
-        assert!(Limits::of(false, Some(3), Some(0.6)).allow(&two));
-        let picture = picture_of(&black, &other, two.worst);
-        assert_eq!(picture[4..8], [0, 0, 0, 255]);
-        assert_eq!(picture[40..44], [255, 0, 0, 255]);
+    fn a_picture_of_differences_is_scaled_to_the_largest() {
+        let (black, other) = ([0, 0, 0, 255, 0, 0, 0, 255], [0, 0, 1, 255, 3, 0, 0, 255]);
+        assert_eq!(picture_of(&black, &other, 3), [0, 0, 85, 255, 255, 0, 0, 255]);
     }
 }

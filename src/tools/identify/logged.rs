@@ -289,8 +289,11 @@ impl Log {
             }
         };
         let broken = |error: TableError| at(error.line)(error.fault.to_string().into());
-        let is_header =
-            |row: &ByteRecord| row.iter().any(|cell| cell.trim_ascii() == names.x.as_bytes());
+        // A row of numbers may have that name in a cell too, as the coordinate of a trace.
+        let is_header = |row: &ByteRecord| {
+            row.iter().any(|cell| cell.trim_ascii() == names.x.as_bytes())
+                && row.iter().all(|cell| number(cell, Decimal::PointOrComma).is_none())
+        };
         let reading = Reading { remarks: true, ..Reading::default() };
         let begun = TableReader::begin(Utf8::new(bytes), reading, is_header);
         let mut table = begun.map_err(broken)?;

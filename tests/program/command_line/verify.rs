@@ -86,7 +86,7 @@ fn one_bit_of_one_frame_is_a_change_of_pixels_and_not_of_physics() {
     assert_eq!(code, Some(1), "{stdout}{stderr}");
     let lines: Vec<_> = stdout.lines().collect();
     assert_eq!(lines[0], "physics: same to the bit: 5 lanes to tick 12");
-    let expected = "pixels: frame-000003.png: 1 pixels off, the worst by 4; the file no longer \
+    let expected = "pixels: frame-000003.png: 1 pixel off, the worst by 4; the file no longer \
                     matches its hash in the manifest; see off/here/frame-000003.png";
     assert_eq!(lines[1..], [expected, "pixels: 1 of 7 frames differ"]);
     assert!(stderr.contains("pixels differ from clip/manifest.json"), "{stderr}");
@@ -106,7 +106,7 @@ fn a_missing_or_broken_frame_is_named() {
     fs::copy(clip.join("frame-000004.png"), clip.join("frame-000005.png")).unwrap();
     let (code, stdout, _) = verify(folder.path(), "");
     assert_eq!(code, Some(1));
-    assert!(stdout.contains("pixels: frame-000000.png: cannot be read: "), "{stdout}");
+    assert!(stdout.contains("pixels: frame-000000.png: is missing"), "{stdout}");
     assert!(stdout.contains("pixels: frame-000001.png: cannot be decoded: "), "{stdout}");
     assert!(stdout.contains("pixels: frame-000005.png: "), "{stdout}");
     assert!(stdout.ends_with("pixels: 3 of 7 frames differ\n"), "{stdout}");
@@ -267,8 +267,30 @@ fn another_driver_is_reported_and_judged_within_limits() {
     let (code, stdout, stderr) = verify(folder.path(), "");
     assert_eq!(code, Some(0), "{stdout}{stderr}");
     assert!(stderr.starts_with("drawn then with another card ("), "{stderr}");
-    assert!(stderr.contains("a channel may differ by 2, and 0.01 % "), "{stderr}");
+    let limits = "a channel may differ by 2, in 1 pixel of 100 000 by more, and 0.01 % of a frame's \
+                  pixels by more than 1";
+    assert!(stderr.contains(limits), "{stderr}");
     assert!(stdout.ends_with("pixels: same within the limits: 7 frames\n"), "{stdout}");
+}
+
+#[test]
+fn letters_by_other_instructions_excuse_no_other_pixel() {
+    let folder = clip();
+    let others = |manifest: &mut Manifest| manifest.adapter.driver_info = "letters by hand".into();
+    edit(folder.path(), others);
+    let (code, stdout, stderr) = verify(folder.path(), "");
+    assert_eq!(code, Some(0), "{stdout}{stderr}");
+    assert!(stderr.contains("a channel of a letter may differ by 2, and 0.01 % "), "{stderr}");
+    // The corner of the top bar has no letter.
+    let path = folder.path().join("clip/frame-000003.png");
+    let mut picture = image::open(&path).unwrap().into_rgba8();
+    picture.get_pixel_mut(0, 0).0[1] ^= 1;
+    picture.save(&path).unwrap();
+    edit(folder.path(), |manifest| manifest.frames[3].pixels = fingerprint(&picture));
+    let (code, stdout, _) = verify(folder.path(), "");
+    assert_eq!(code, Some(1), "{stdout}");
+    let expected = "pixels: frame-000003.png: 1 pixel off, the worst by 1\n";
+    assert!(stdout.contains(expected), "{stdout}");
 }
 
 #[test]
