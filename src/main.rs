@@ -10,9 +10,9 @@ use std::process::ExitCode;
 
 use regatta::commands::{self, Cli};
 
-/// Log filter: these libraries report errors only, and some parts of them nothing: EGL and Vulkan, the frames of Wayland
-/// windows, and its protocol. Drivers that are not installed are tried too, and any failure that matters comes back as
-/// an error value. `RUST_LOG` overrides it.
+/// Log filter: these libraries report errors only, and some parts of them nothing: EGL and Vulkan, the frames of
+/// Wayland windows, and its protocol. Drivers that are not installed are tried too, and any failure that matters comes
+/// back as an error value. `RUST_LOG` overrides it.
 const LOG_FILTER: &str = "warn,arboard=error,wgpu_core=error,wgpu_hal=error,wgpu_hal::gles::egl=off,naga=error,\
      wgpu_hal::vulkan::instance=off,sctk_adwaita=off,wayland_backend=off";
 
