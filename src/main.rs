@@ -56,8 +56,8 @@ fn run() -> ExitCode {
 }
 
 /// Restarts the program with an `XDG_RUNTIME_DIR` in which there is no Wayland, if the variable is unset and a driver
-/// may draw. Mesa looks for Wayland before it lists its adapters, and libwayland complains about the
-/// variable on standard error. A restart is the only safe way to set it before there are drivers and threads.
+/// may draw. Mesa looks for Wayland before it lists its adapters, and libwayland complains about the variable on
+/// standard error. A restart is the only safe way to set it before there are drivers and threads.
 #[cfg(target_os = "linux")]
 fn restart_without_wayland(cli: &Cli) {
     use std::os::unix::process::CommandExt;
@@ -84,19 +84,19 @@ fn report_bug(panic: &PanicHookInfo<'_>) {
             "error: the system starts no more threads for this program; let it (ulimit -u, ulimit -v)",
         );
     }
-    // Nor is a display that lacks what winit takes for granted. Without `unwrap`'s Debug its messages say what.
+    // The keyboard's library is loaded late, and its loader panics without it.
+    if said.contains("could not be loaded") {
+        return commands::print_status(&format!("error: {said}; {}", commands::WINDOW_LIBRARIES));
+    }
+    // winit takes some extensions of a display for granted.
     let is_of_winit = |place: &Location<'_>| {
         let mut parts = Path::new(place.file()).components();
         parts.any(|part| part.as_os_str().to_string_lossy().starts_with("winit-"))
     };
-    if panic.location().is_some_and(is_of_winit) && !said.contains("could not be loaded") {
+    if panic.location().is_some_and(is_of_winit) {
         return commands::print_status(&format!(
-            "error: no window can be opened on this display: {said}; regatta capture draws without a window"
+            "error: the window system lacks what winit needs: {said}; regatta capture draws without a window"
         ));
-    }
-    // The keyboard's library is loaded late, and its loader panics without it.
-    if said.contains("could not be loaded") {
-        return commands::print_status(&format!("error: {said}; {}", commands::WINDOW_LIBRARIES));
     }
     // Not `eprintln!`, which itself panics if standard error is closed.
     commands::print_status(&format!(
