@@ -213,20 +213,6 @@ fn without_display(
         None => FRAMES,
     };
     let folder = FrameFolder::new_sibling(FRAMES_DIR)?;
-    // winit names no library, and no display.
-    let remedy = match ["WAYLAND_DISPLAY", "DISPLAY"].map(env::var) {
-        _ if reason.contains("librar") => format!("; {WINDOW_LIBRARIES}"),
-        [Ok(compositor), _] if !compositor.is_empty() => {
-            format!("; WAYLAND_DISPLAY is {compositor}")
-        }
-        [_, Ok(display)] if !display.is_empty() => format!("; DISPLAY is {display}"),
-        _ => String::new(),
-    };
-    print_status(&format!(
-        "no display to open a window on ({reason}{remedy}); drawing {} s of it into {} instead",
-        f64::from(frames) / f64::from(FPS),
-        folder.path().display(),
-    ));
     let schedule = Schedule { frames, fps: FPS };
     let studio = experiment.studio();
     let capture = CaptureSettings {
@@ -241,6 +227,22 @@ fn without_display(
         mark_every: state_log::usual_stride(schedule.ticks(&studio)),
         renderer: args.renderer.map_or(RendererChoice::Cpu, RendererChoice::from),
     };
+    // A missing device is told of before frames are promised.
+    capture.renderer()?;
+    // winit names no library, and no display.
+    let named = ["WAYLAND_DISPLAY", "DISPLAY"].map(|name| match env::var(name) {
+        Ok(display) if !display.is_empty() => format!("; {name} is {display}"),
+        _ => String::new(),
+    });
+    let remedy = match reason.contains("librar") {
+        true => format!("; {WINDOW_LIBRARIES}"),
+        false => named.concat(),
+    };
+    print_status(&format!(
+        "no display to open a window on ({reason}{remedy}); drawing {} s of it into {} instead",
+        f64::from(frames) / f64::from(FPS),
+        folder.path().display(),
+    ));
     let last = args.seconds.map(|seconds| studio.race().nearest_tick(seconds));
     let mut studio = clip::record(experiment, studio, capture, folder)?;
     // The last frame may be before the end of the run.

@@ -31,8 +31,8 @@ use report::{ReportFile, ReportFormat};
 const EXAMPLES: &str = "\
 A recording is a scene with checks. Verify runs its race again without graphics: each lane must be the
 same to the bit, or verify names the first check that differs. It also repeats the run of a capture:
-first the physics, which must be the same to the bit, then the frames, which must be the same in every
-pixel, or almost if a graphics device drew them.
+first the physics, which must be the same to the bit, then the frames. The processor draws them, and
+they must be the same in every pixel, or almost if a graphics device drew the capture.
 
 Exit code 0: the same. 1: different. 2: cannot be judged; the message says why.
 
@@ -67,14 +67,14 @@ pub(super) struct VerifyArgs {
 
     /// The largest allowed difference of a channel, 0 to 255
     ///
-    /// The default is 0, or 2 for letters of another processor and for frames of a graphics device, where 1 pixel of
-    /// 100 000 may differ by more.
+    /// The default is 0. It is 2 for letters of another processor, and for a frame of a graphics device. In such a
+    /// frame 1 pixel of 100 000 may differ by more.
     #[arg(long, value_name = "N")]
     max_channel: Option<u8>,
 
     /// The largest allowed percentage of pixels off by more than 1
     ///
-    /// The default is 0, or 0.01 where the default of --max-channel is 2.
+    /// The default is 0, or 100 where that of --max-channel is 2.
     #[arg(long, value_name = "PERCENT", value_parser = percent)]
     max_pixels: Option<f64>,
 

@@ -103,7 +103,8 @@ impl Gpu {
                 None => Some(Self::OFFSCREEN_FORMAT),
             };
             let Some(format) = format else {
-                unfit.push(format!("{} cannot present to this window", title(&info)));
+                let refusal = "cannot present to this window, which may need 24 bits a pixel";
+                unfit.push(format!("{} {refusal}", title(&info)));
                 continue;
             };
             if info.device_type == wgpu::DeviceType::Cpu && choice != RendererChoice::Gpu {

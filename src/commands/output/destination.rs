@@ -74,6 +74,10 @@ impl Destination<'_> {
                 let path = brief(path);
                 Err(Error::mistake(format!("{path} is a directory; give {option} a file")))
             }
+            _ if path.to_string_lossy().ends_with(std::path::is_separator) => {
+                let path = brief(path);
+                Err(Error::mistake(format!("{path} ends like a directory; give {option} a file")))
+            }
             Ok(_) if self.replaces().is_none() => {
                 // Opening a pipe blocks until a program reads from it.
                 let (name, device) = (brief(path), path.to_owned());

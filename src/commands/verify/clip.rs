@@ -202,9 +202,7 @@ fn read(path: &Path) -> Result<Manifest, String> {
         Unreadable::System(error) => format!("{error}; `regatta capture` writes it"),
         error => error.to_string(),
     })?;
-    // Some editors begin a file with a byte order mark.
-    let bytes = bytes.strip_prefix("\u{feff}".as_bytes()).unwrap_or(&bytes);
-    let value: Value = serde_json::from_slice(bytes)
+    let value: Value = serde_json::from_slice(&bytes)
         .map_err(|error| format!("it is not JSON: {error}; capture again"))?;
     match value["schema"].as_u64() {
         Some(schema) if schema == u64::from(SCHEMA) => {}
@@ -215,7 +213,7 @@ fn read(path: &Path) -> Result<Manifest, String> {
         }
         None => return Err("it does not name its schema; capture again".into()),
     }
-    let manifest: Manifest = serde_json::from_slice(bytes)
+    let manifest: Manifest = serde_json::from_slice(&bytes)
         .map_err(|error| format!("it does not follow schema {SCHEMA}: {error}; capture again"))?;
     settings::check(&manifest)?;
     Ok(manifest)

@@ -36,17 +36,20 @@ struct Limits {
 }
 
 impl Limits {
-    /// Returns the limits of the options, or else those for these adapters. The adapter that drew the frames may not
-    /// differ at all, and the same one with other letters only in those.
+    /// Returns the limits for these adapters, with those that the options replace. The adapter that drew the frames may
+    /// not differ at all, and the same one with other letters only in those.
     fn of(args: &VerifyArgs, was: &Adapter, is: &Adapter) -> Self {
-        let is_given = args.max_channel.is_some() || args.max_pixels.is_some();
         let with_these_letters = Adapter { driver_info: is.driver_info.clone(), ..was.clone() };
-        let of_letters = !is_given && was != is && with_these_letters == *is;
-        let usual = if was == is { PixelLimits::EXACT } else { PixelLimits::OF_EXECUTORS };
+        let of_letters = was != is && with_these_letters == *is;
+        let usual = match was == is {
+            true => PixelLimits::EXACT,
+            false if of_letters => PixelLimits::OF_LETTERS,
+            false => PixelLimits::OF_EXECUTORS,
+        };
         let of_pixels = PixelLimits {
             max_channel: args.max_channel.unwrap_or(usual.max_channel),
             max_pixels_percent: args.max_pixels.unwrap_or(usual.max_pixels_percent),
-            strays: if is_given || of_letters { 0 } else { usual.strays },
+            ..usual
         };
         Self { of_pixels, of_letters }
     }
@@ -61,11 +64,14 @@ impl Display for Limits {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         let PixelLimits { max_channel, max_pixels_percent, strays } = self.of_pixels;
         let whose = if self.of_letters { " of a letter" } else { "" };
-        write!(f, "a channel{whose} may differ by {max_channel}, ")?;
+        write!(f, "a channel{whose} may differ by {max_channel}")?;
         if strays > 0 {
-            write!(f, "in {} of 100 000 by more, ", counted(strays, "pixel"))?;
+            write!(f, ", in {} of 100 000 by more", counted(strays, "pixel"))?;
         }
-        write!(f, "and {max_pixels_percent} % of a frame's pixels by more than 1")
+        if max_pixels_percent < 100.0 {
+            write!(f, ", and in {max_pixels_percent} % of a frame's pixels by more than 1")?;
+        }
+        Ok(())
     }
 }
 

@@ -66,6 +66,11 @@ fn a_log_that_cannot_be_read_is_refused_with_its_line_and_a_remedy() {
         ),
         ("tick;x\n0;1\n", "log.csv:1: a log of 1 rows says too little"),
         ("x\n1\n", "log.csv:1: no column \"tick\" and none \"t\""),
+        // A row of a trace has the name in a cell.
+        (
+            "tick,coordinate,q\n0,x,1\n",
+            "log.csv:1: no column \"x\"; here are \"tick\", \"coordinate\", \"q\"",
+        ),
         ("tick,x\n0,1\n1,abc\n", "log.csv:3: column \"x\": \"abc\" is no number"),
         ("tick,x\n0,1\n1,NaN\n", "log.csv:3: column \"x\": \"NaN\" is no number"),
         ("tick,x\n0,1\n1\n", "log.csv:3: the row has 1 of the header's 2 cells"),

@@ -69,6 +69,7 @@ fn each_mistake_is_named_with_its_remedy() {
         ("capture --out x --format avi", "png, gif, y4m, sheet"),
         ("capture --out x --format gif --fps 51", "at most 50 frames a second, not 51"),
         ("capture --out src --format gif", "src is a directory; give --out a file"),
+        ("capture --out none.gif/", "none.gif/ ends like a directory; give --out a file"),
         ("capture --out src --format gif --force", "src is a directory; give --out a file"),
         ("capture --out x.apng", "regatta writes no .apng files; give --format y4m --out -"),
         ("capture --out x.png --format gif", "give a name that ends in .gif, or --format sheet"),

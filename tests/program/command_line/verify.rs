@@ -267,8 +267,7 @@ fn another_driver_is_reported_and_judged_within_limits() {
     let (code, stdout, stderr) = verify(folder.path(), "");
     assert_eq!(code, Some(0), "{stdout}{stderr}");
     assert!(stderr.starts_with("drawn then with another card ("), "{stderr}");
-    let limits = "a channel may differ by 2, in 1 pixel of 100 000 by more, and 0.01 % of a frame's \
-                  pixels by more than 1";
+    let limits = ": a channel may differ by 2, in 1 pixel of 100 000 by more\n";
     assert!(stderr.contains(limits), "{stderr}");
     assert!(stdout.ends_with("pixels: same within the limits: 7 frames\n"), "{stdout}");
 }
@@ -280,7 +279,7 @@ fn letters_by_other_instructions_excuse_no_other_pixel() {
     edit(folder.path(), others);
     let (code, stdout, stderr) = verify(folder.path(), "");
     assert_eq!(code, Some(0), "{stdout}{stderr}");
-    assert!(stderr.contains("a channel of a letter may differ by 2, and 0.01 % "), "{stderr}");
+    assert!(stderr.contains(": a channel of a letter may differ by 2\n"), "{stderr}");
     // The corner of the top bar has no letter.
     let path = folder.path().join("clip/frame-000003.png");
     let mut picture = image::open(&path).unwrap().into_rgba8();
@@ -291,6 +290,12 @@ fn letters_by_other_instructions_excuse_no_other_pixel() {
     assert_eq!(code, Some(1), "{stdout}");
     let expected = "pixels: frame-000003.png: 1 pixel off, the worst by 1\n";
     assert!(stdout.contains(expected), "{stdout}");
+    // Other limits are those of letters too.
+    let (code, stdout, stderr) = verify(folder.path(), "--max-channel 9 --max-pixels 1");
+    assert_eq!(code, Some(1), "{stdout}");
+    let limits =
+        ": a channel of a letter may differ by 9, and in 1 % of a frame's pixels by more than 1\n";
+    assert!(stderr.contains(limits), "{stderr}");
 }
 
 #[test]
