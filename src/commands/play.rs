@@ -227,7 +227,7 @@ fn without_display(
         mark_every: state_log::usual_stride(schedule.ticks(&studio)),
         renderer: args.renderer.map_or(RendererChoice::Cpu, RendererChoice::from),
     };
-    // A missing device is told of before frames are promised.
+    // The error of a missing device comes before frames are promised.
     capture.renderer()?;
     // winit names no library, and no display.
     let named = ["WAYLAND_DISPLAY", "DISPLAY"].map(|name| match env::var(name) {
