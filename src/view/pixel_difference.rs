@@ -59,6 +59,11 @@ impl PixelLimits {
     /// For letters whose outlines are filled by other instructions.
     pub const OF_LETTERS: Self = Self { max_channel: 2, max_pixels_percent: 100.0, strays: 0 };
 
+    /// Whether no pixel may differ.
+    pub fn are_exact(&self) -> bool {
+        self.max_channel == 0 && self.strays == 0
+    }
+
     /// Whether a picture may differ by this.
     pub fn allow(&self, difference: &PixelDifference) -> bool {
         let pixels: usize = difference.pixels.iter().sum();
@@ -89,6 +94,9 @@ mod tests {
         assert_eq!((one.beyond(0), one.beyond(1), one.worst()), (1, 0, 1));
         assert!(PixelLimits::EXACT.allow(&none) && !PixelLimits::EXACT.allow(&one));
         assert!(PixelLimits::OF_EXECUTORS.allow(&one));
+        let with_strays = PixelLimits { max_channel: 0, ..PixelLimits::OF_EXECUTORS };
+        assert!(with_strays.allow(&one) && !with_strays.are_exact());
+        assert!(PixelLimits::EXACT.are_exact() && !PixelLimits::OF_LETTERS.are_exact());
         let far = difference(200, &[1, 255]);
         assert_eq!((far.beyond(0), far.beyond(254), far.beyond(255), far.worst()), (2, 1, 0, 255));
     }

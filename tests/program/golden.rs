@@ -11,7 +11,7 @@ use regatta::scene::{Action, SCENES, Scene};
 use regatta::studio::{
     RunCommand, StageCommand, Step, Studio, analyse_bounded, open_loop_lab_on, run_loops,
 };
-use regatta::view::{OffscreenRenderer, Panels, letter_instructions};
+use regatta::view::{OffscreenRenderer, Panels, PixelDifference, letter_instructions};
 
 const SIZE_PX: [u32; 2] = [400, 225];
 /// As in a window of 800 × 450 points, where all panels show.
@@ -56,11 +56,8 @@ fn sailed(scene: &str, race: bool, mut each_frame: impl FnMut(&Studio)) -> Studi
 /// The worst channel difference, and how many pixels are off by more than 1.
 fn difference(a: &RgbaImage, b: &RgbaImage) -> (u8, usize) {
     assert_eq!(a.dimensions(), b.dimensions());
-    let worst = |(a, b): (&image::Rgba<u8>, &image::Rgba<u8>)| {
-        a.0.iter().zip(b.0).map(|(a, b)| a.abs_diff(b)).max().unwrap_or(0)
-    };
-    let each = a.pixels().zip(b.pixels()).map(worst);
-    each.fold((0, 0), |(most, off), d| (most.max(d), off + usize::from(d > 1)))
+    let difference = PixelDifference::between(a, b, |_| true);
+    (difference.worst(), difference.beyond(1))
 }
 
 /// Without alpha, which is full, and as small as may be: pictures in a repository stay for ever.

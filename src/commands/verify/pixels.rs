@@ -113,7 +113,7 @@ pub(super) fn judge(
     if done < frames {
         return Err(cannot(interrupted_after(done, frames, "nothing is written")));
     }
-    let are_exact = limits.of_pixels.max_channel == 0;
+    let are_exact = limits.of_pixels.are_exact();
     Ok((Frames { are_exact, differences }, (studio, state_log)))
 }
 

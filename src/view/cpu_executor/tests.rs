@@ -253,6 +253,8 @@ fn processor_and_device_draw_every_scene_almost_alike() {
             assert!(is_alike, "{}: worst {worst}", scene.name);
             let pixels = one.rows.len() / 4;
             assert!(beyond_one <= pixels / 10_000, "{}: {beyond_one} by 2", scene.name);
+            let beyond_two = difference.beyond(2);
+            assert!(beyond_two <= pixels / 100_000, "{}: {beyond_two} by 3", scene.name);
         }
     }
 }
