@@ -9,7 +9,7 @@ use regatta::scene::{LaneSpec, Scene};
 use regatta::sim::integrators::GENERAL_METHODS;
 use regatta::stage;
 use regatta::studio::{RunCommand, StageCommand, Studio};
-use regatta::view::{CpuExecutor, FrameRenderer, OffscreenRenderer, Panels, Textures, png};
+use regatta::view::{CpuExecutor, FrameRenderer, OffscreenRenderer, Panels, png};
 
 /// A frame at 60 a second.
 const FRAME_NS: i64 = 16_666_667;
@@ -101,7 +101,7 @@ const ROWS: [Row; 8] = [
 fn frames(panels: Panels, studio: &mut Studio) -> impl Iterator<Item = [Duration; STAGES]> {
     let mut renderer = FrameRenderer::new(4096).with_panels(panels);
     let mut executor = CpuExecutor::new(NonZero::<usize>::MIN);
-    let (mut textures, mut rgba) = (Textures::default(), Vec::new());
+    let mut rgba = Vec::new();
     (0..FRAMES).map(move |_| {
         let mut ends = vec![Instant::now()];
         let mut lap = || ends.push(Instant::now());
@@ -116,7 +116,7 @@ fn frames(panels: Panels, studio: &mut Studio) -> impl Iterator<Item = [Duration
         lap();
         let output = renderer.paint(SIZE_PX, layout);
         lap();
-        executor.execute(&output.drawing, &textures.update(&output.drawing), &mut rgba);
+        executor.execute(&output.drawing, &mut rgba);
         lap();
         black_box(png::encode(SIZE_PX, &rgba));
         lap();

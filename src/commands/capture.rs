@@ -123,9 +123,9 @@ pub(super) struct CaptureArgs {
 
     /// What draws: auto, gpu or cpu [default: cpu]
     ///
-    /// The processor draws the same frames on every machine, without a driver, but for single pixels of letters. Gpu
-    /// takes a graphics device, which may be a software driver. Auto takes a graphics card, or the processor if there
-    /// is none.
+    /// The processor needs no driver, and draws the same frames on every machine, except for single pixels of letters.
+    /// Gpu takes a graphics device, which may be a software driver. Auto takes a graphics card, or the processor if
+    /// there is none.
     #[arg(long, value_name = "WHAT", hide_possible_values = true, hide_short_help = true)]
     renderer: Option<RendererName>,
 

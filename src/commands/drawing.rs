@@ -52,15 +52,12 @@ impl CaptureSettings {
 
     /// The graphics device that draws, if any.
     fn gpu(&self) -> Result<Option<Gpu>, Error> {
-        let gpu = match self.renderer {
-            RendererChoice::Cpu => return Ok(None),
-            RendererChoice::Gpu => Some(pollster::block_on(Gpu::headless(self.renderer))?),
-            RendererChoice::Auto => pollster::block_on(Gpu::headless(self.renderer)).ok(),
-        };
-        if let Some(gpu) = &gpu {
-            log::info!("drawing with {} ({})", gpu.info.name, gpu.info.backend);
-        }
-        Ok(gpu)
+        let found = || pollster::block_on(Gpu::headless(self.renderer));
+        Ok(match self.renderer {
+            RendererChoice::Cpu => None,
+            RendererChoice::Gpu => Some(found()?),
+            RendererChoice::Auto => found().ok(),
+        })
     }
 }
 
@@ -143,7 +140,7 @@ impl Plot {
     }
 
     pub(super) fn draw(mut self, figure: &Figure) -> Result<(), Error> {
-        let (size_px, mut rgba) = (self.renderer.size_px(), Vec::new());
+        let (size_px, mut rgba) = (self.renderer.size_px(), self.renderer.buffer()?);
         self.renderer.draw_figure(figure, &mut rgba)?;
         self.output.write_all(&png::encode(size_px, &rgba))?;
         self.output.finish(&format!("a picture of {}x{}", size_px[0], size_px[1]))

@@ -19,7 +19,7 @@ use super::state_log::StateLog;
 use super::terminal::progress;
 use crate::measure::cloud::CloudWorker;
 use crate::studio::{Studio, analyse_bounded, complete_clouds, run_loops};
-use crate::view::{CpuExecutor, OffscreenRenderer, Panels, PreparedFrame, ReadbackError};
+use crate::view::{OffscreenRenderer, Panels, PreparedFrame, Rasterizer, ReadbackError};
 
 /// Threads that draw and encode. Simulation and layout of a race with panels take a seventh of the time, so that more
 /// threads would wait.
@@ -91,8 +91,8 @@ impl Pipeline<'_> {
         take: impl FnMut(&DrawnFrame, T) -> Result<(), Error> + Send,
     ) -> Result<u32, Error> {
         let pool = jobs::pool(workers)?;
-        let executors = (0..workers).map(|_| self.renderer.executor());
-        let executors = Mutex::new(executors.collect::<Result<Vec<_>, _>>()?);
+        let rasterizers = (0..workers).map(|_| Rasterizer::new(NonZero::<usize>::MIN));
+        let rasterizers = Mutex::new(rasterizers.collect());
         let (results, encoded) = mpsc::channel();
         let (emptied, buffers) = mpsc::channel();
         for _ in 0..(workers + SPARE_BUFFERS).min(self.schedule.frames as usize) {
@@ -104,10 +104,10 @@ impl Pipeline<'_> {
                 .map_err(jobs::no_threads)?;
             let drawn = pool.in_place_scope_fifo(|jobs| {
                 self.prepare(&buffers, interrupted, |mut prepared, mut drawn| {
-                    let (results, encode, executors) = (results.clone(), &encode, &executors);
+                    let (results, encode, rasterizers) = (results.clone(), &encode, &rasterizers);
                     jobs.spawn_fifo(move |_| {
                         let made = panic::catch_unwind(AssertUnwindSafe(|| {
-                            finish(&mut prepared, executors, &mut drawn.rgba);
+                            finish(&mut prepared, rasterizers, &mut drawn.rgba);
                             encode(&drawn, &prepared)
                         }));
                         // The receiver is gone once `take` has failed.
@@ -151,12 +151,12 @@ impl Pipeline<'_> {
     }
 }
 
-/// Draws a frame with an executor that no other thread uses.
-fn finish(prepared: &mut PreparedFrame, executors: &Mutex<Vec<CpuExecutor>>, rgba: &mut Vec<u8>) {
-    let executors = || executors.lock().unwrap_or_else(PoisonError::into_inner);
-    let mut executor = executors().pop().expect("each worker has one");
-    prepared.finish(&mut executor, rgba);
-    executors().push(executor);
+/// Draws a frame with a rasterizer that no other thread uses.
+fn finish(prepared: &mut PreparedFrame, free: &Mutex<Vec<Rasterizer>>, rgba: &mut Vec<u8>) {
+    let free = || free.lock().unwrap_or_else(PoisonError::into_inner);
+    let mut rasterizer = free().pop().expect("each worker has one");
+    prepared.finish(&mut rasterizer, rgba);
+    free().push(rasterizer);
 }
 
 /// Passes encoded frames to `take` in order, from frame 0, and returns their buffers. Stops at the first
@@ -166,41 +166,17 @@ fn deliver_in_order<T>(
     emptied: &Sender<Vec<u8>>,
     mut take: impl FnMut(&DrawnFrame, T) -> Result<(), Error>,
 ) -> Result<(), Error> {
-    let mut window = ReorderingWindow::default();
+    let (mut next, mut early) = (0, BTreeMap::new());
     for (drawn, made) in encoded {
-        window.insert(drawn.frame, (drawn, made));
-        while let Some((drawn, made)) = window.take_next() {
+        early.insert(drawn.frame, (drawn, made));
+        while let Some((drawn, made)) = early.remove(&next) {
+            next += 1;
             take(&drawn, made.unwrap_or_else(|bug| panic::resume_unwind(bug)))?;
             // The receiver no longer exists after the last frame.
             let _ = emptied.send(drawn.rgba);
         }
     }
     Ok(())
-}
-
-/// Puts numbered results back in order, and keeps those that arrive too early.
-struct ReorderingWindow<T> {
-    next: u32,
-    early: BTreeMap<u32, T>,
-}
-
-impl<T> Default for ReorderingWindow<T> {
-    fn default() -> Self {
-        Self { next: 0, early: BTreeMap::new() }
-    }
-}
-
-impl<T> ReorderingWindow<T> {
-    fn insert(&mut self, number: u32, result: T) {
-        self.early.insert(number, result);
-    }
-
-    /// Returns the result with the next number, from 0, if that result has arrived.
-    fn take_next(&mut self) -> Option<T> {
-        let result = self.early.remove(&self.next)?;
-        self.next += 1;
-        Some(result)
-    }
 }
 
 /// Completes the loops on the stage, and the analysis and the clouds that the panels show. A window shows results as
@@ -247,67 +223,37 @@ mod tests {
     }
 
     /// Runs the pipeline from frame 0.
-    fn piped(
+    fn piped<T: Send>(
         renderer: &mut OffscreenRenderer,
         interrupted: &AtomicBool,
-        mut take: impl FnMut(&DrawnFrame) -> Result<(), Error> + Send,
+        encode: impl Fn(&DrawnFrame) -> T + Sync,
+        take: impl FnMut(&DrawnFrame, T) -> Result<(), Error> + Send,
     ) -> Result<u32, Error> {
         let mut studio = race();
         let mut state_log = StateLog::new(1, studio.race());
         let (studio, state_log) = (&mut studio, &mut state_log);
         let run = Pipeline { renderer, studio, state_log, schedule: SCHEDULE };
-        // Every other frame takes longer to encode, beginning with the first.
-        let encode = |drawn: &DrawnFrame, _: &PreparedFrame| {
-            thread::sleep(Duration::from_millis(if drawn.frame.is_multiple_of(2) { 5 } else { 0 }));
-            drawn.frame
-        };
-        run.draw_with_workers(3, interrupted, encode, |drawn, encoded| {
-            assert_eq!(encoded, drawn.frame);
-            take(drawn)
-        })
+        run.draw_with_workers(3, interrupted, |drawn, _| encode(drawn), take)
     }
 
-    #[test]
-    fn results_leave_the_window_in_order() {
-        let mut window = ReorderingWindow::default();
-        let mut left = Vec::new();
-        for (number, held_back) in [(2, 1), (0, 1), (3, 2), (1, 0), (4, 0)] {
-            window.insert(number, number);
-            left.extend(std::iter::from_fn(|| window.take_next()));
-            assert_eq!(window.early.len(), held_back, "after {number}");
-        }
-        assert_eq!(left, [0, 1, 2, 3, 4]);
+    /// Takes longer for every other frame, beginning with the first.
+    fn unsteady(drawn: &DrawnFrame) -> u32 {
+        thread::sleep(Duration::from_millis(if drawn.frame.is_multiple_of(2) { 5 } else { 0 }));
+        drawn.frame
     }
 
     #[test]
     fn an_encoder_that_panics_ends_the_run_with_its_panic() {
         let mut renderer = renderer();
-        let mut studio = race();
-        let mut state_log = StateLog::new(1, studio.race());
-        let run = Pipeline {
-            renderer: &mut renderer,
-            studio: &mut studio,
-            state_log: &mut state_log,
-            schedule: SCHEDULE,
-        };
-        let encode = |drawn: &DrawnFrame, _: &PreparedFrame| assert_ne!(drawn.frame, 4, "a bug");
-        let run = || run.draw_with_workers(3, &AtomicBool::new(false), encode, |_, ()| Ok(()));
+        let encode = |drawn: &DrawnFrame| assert_ne!(drawn.frame, 4, "a bug");
+        let run = || piped(&mut renderer, &AtomicBool::new(false), encode, |_, ()| Ok(()));
         assert!(panic::catch_unwind(AssertUnwindSafe(run)).is_err());
     }
 
     #[test]
     fn frames_in_flight_never_exceed_the_buffers() {
-        let mut renderer = renderer();
-        let mut studio = race();
-        let mut state_log = StateLog::new(1, studio.race());
-        let run = Pipeline {
-            renderer: &mut renderer,
-            studio: &mut studio,
-            state_log: &mut state_log,
-            schedule: SCHEDULE,
-        };
         let [on_their_way, most] = [0, 0].map(AtomicUsize::new);
-        let encode = |drawn: &DrawnFrame, _: &PreparedFrame| {
+        let encode = |drawn: &DrawnFrame| {
             most.fetch_max(on_their_way.fetch_add(1, Ordering::SeqCst) + 1, Ordering::SeqCst);
             // The first frame is delayed until all buffers are in use, and a little longer.
             while drawn.frame == 0 && most.load(Ordering::SeqCst) < 3 + SPARE_BUFFERS {
@@ -315,7 +261,7 @@ mod tests {
             }
             thread::sleep(Duration::from_millis(if drawn.frame == 0 { 100 } else { 0 }));
         };
-        let done = run.draw_with_workers(3, &AtomicBool::new(false), encode, |_, ()| {
+        let done = piped(&mut renderer(), &AtomicBool::new(false), encode, |_, ()| {
             on_their_way.fetch_sub(1, Ordering::SeqCst);
             Ok(())
         });
@@ -333,7 +279,8 @@ mod tests {
             one_by_one.push((studio.race().tick(), studio.clock().alpha_fraction(), rgba.clone()));
         }
         let mut frames = Vec::new();
-        let drawn = piped(&mut renderer, &AtomicBool::new(false), |drawn| {
+        let drawn = piped(&mut renderer, &AtomicBool::new(false), unsteady, |drawn, encoded| {
+            assert_eq!(encoded, drawn.frame);
             frames.push((drawn.tick, drawn.alpha, drawn.rgba.clone()));
             Ok(())
         });
@@ -343,9 +290,8 @@ mod tests {
 
     #[test]
     fn a_refused_frame_ends_the_run_with_its_reason() {
-        let mut renderer = renderer();
         let mut taken = 0;
-        let stopped = piped(&mut renderer, &AtomicBool::new(false), |_| {
+        let stopped = piped(&mut renderer(), &AtomicBool::new(false), unsteady, |_, _| {
             taken += 1;
             if taken == 3 { Err(Error::failed("full")) } else { Ok(()) }
         });
@@ -355,10 +301,9 @@ mod tests {
 
     #[test]
     fn an_interrupt_still_delivers_the_frames_in_flight() {
-        let mut renderer = renderer();
         let interrupted = AtomicBool::new(false);
         let mut taken = 0;
-        let drawn = piped(&mut renderer, &interrupted, |_| {
+        let drawn = piped(&mut renderer(), &interrupted, unsteady, |_, _| {
             taken += 1;
             interrupted.store(true, Ordering::Relaxed);
             Ok(())

@@ -101,8 +101,8 @@ impl PlayArgs {
 
 /// Directory into which the pictures are drawn if there is no display.
 const FRAMES_DIR: &str = "regatta-frames";
-/// Number of pictures if there is no display. They are enough to show how each method behaves, and even software draws
-/// them in seconds.
+/// Number of pictures if there is no display. They are enough to show how each method behaves, and are drawn in a few
+/// seconds.
 const FRAMES: u32 = 4 * FPS;
 /// Size of these pictures in pixels, which is also that of the window.
 const SIZE_PX: [u32; 2] = [1280, 720];

@@ -40,7 +40,7 @@ pub(super) fn draw(
     let row_bytes = 4 * width as usize;
     let sheet_row_bytes = row_bytes * columns as usize;
     let mut sheet = vec![0; sheet_row_bytes * (rows * height) as usize];
-    let mut cell = Vec::new();
+    let mut cell = renderer.buffer()?;
     for (row, lane) in lanes.into_iter().enumerate() {
         let mut scene = experiment.scene.clone();
         scene.lanes = vec![lane];

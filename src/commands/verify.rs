@@ -1,7 +1,7 @@
 //! `regatta verify`: checks that this program still reproduces a capture or a recording.
 //!
-//! The run is repeated once. Its physics must match bit by bit, even without a GPU. Its pixels may differ although the
-//! physics is the same.
+//! The run is repeated once. Its physics must match bit by bit, even in a build without graphics. Its pixels may differ
+//! although the physics is the same.
 
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};

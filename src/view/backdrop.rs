@@ -84,7 +84,7 @@ mod tests {
     use super::*;
     use crate::look::palette::Rgba;
     use crate::stage::{Path, PathPoint, Rect};
-    use crate::view::testing::{EVERYWHERE, Painter, draw_picture, stage_alone};
+    use crate::view::testing::{EVERYWHERE, draw_picture, executor, paint, stage_alone};
 
     /// Water with this number of pale lines across it, and over them another line at height `own`.
     fn picture(top: Rgba, lines: usize, own: f32) -> Picture {
@@ -104,7 +104,7 @@ mod tests {
 
     #[test]
     fn a_backdrop_changes_no_pixel() {
-        let mut painter = Painter::new();
+        let mut executor = executor();
         let mut backdrops = BackdropFinder::default();
         let [blue, grey] = [[40, 60, 90, 255], [70, 70, 70, 255]];
         let moving = |n: u8| (blue, 25, 0.5 * f32::from(n));
@@ -124,7 +124,7 @@ mod tests {
             let size_px = if n % 7 == 6 { [48, 64] } else { [64, 64] };
             let drawing = stage_alone(&mut backdrops, size_px, 1.0, &picture);
             if n % 5 != 1 {
-                let drawn = painter.paint(&drawing);
+                let drawn = paint(&mut executor, &drawing);
                 let alone = draw_picture(size_px, 1.0, &picture);
                 assert!(drawn.rows == alone.rows, "frame {n}");
             }

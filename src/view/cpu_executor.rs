@@ -14,22 +14,20 @@ use std::thread;
 
 use egui::epaint::{Vertex, WHITE_UV};
 use egui::{Color32, ColorImage, ImageData, TextureId};
+use fearless_simd::Level;
 
 use super::drawing::{DrawKind, Drawing, SeaRect, StrokeVertex};
 use super::screen_transform::ScreenTransform;
 use spans::{Pixel, Ramp};
 use triangle::{Triangle, Window};
 
-/// No backdrop is kept for a larger frame, because it would take as much memory again.
-const MAX_BACKDROP_PIXELS: usize = 4096 * 4096;
-
 /// The textures of a renderer's drawings. A clone shares their pixels.
-#[derive(Clone, Default)]
-pub struct Textures(HashMap<TextureId, Arc<ColorImage>>);
+#[derive(Clone, Debug, Default)]
+pub(super) struct Textures(HashMap<TextureId, Arc<ColorImage>>);
 
 impl Textures {
     /// Applies the changes of the next drawing. Returns the textures to draw it with.
-    pub fn update(&mut self, drawing: &Drawing) -> Self {
+    pub(super) fn update(&mut self, drawing: &Drawing) -> Self {
         for (id, delta) in &drawing.textures.set {
             let ImageData::Color(image) = &delta.image;
             match (delta.pos, self.0.get_mut(id)) {
@@ -56,10 +54,9 @@ fn copy_into(whole: &mut ColorImage, part: &ColorImage, [left, top]: [usize; 2])
 /// Draws the drawings of one renderer.
 #[derive(Debug)]
 pub struct CpuExecutor {
-    threads: NonZero<usize>,
-    /// The id of the backdrop, if there is one, and its pixels.
-    backdrop_id: Option<u64>,
-    backdrop: Vec<u8>,
+    /// Those of the drawings so far.
+    pub(super) textures: Textures,
+    rasterizer: Rasterizer,
 }
 
 impl CpuExecutor {
@@ -69,21 +66,42 @@ impl CpuExecutor {
 
     /// Creates an executor that draws with this number of threads.
     pub fn new(threads: NonZero<usize>) -> Self {
-        Self { threads, backdrop_id: None, backdrop: Vec::new() }
+        Self { textures: Textures::default(), rasterizer: Rasterizer::new(threads) }
     }
 
-    /// Gives it an empty buffer with room for its backdrop.
-    pub(super) fn with_room(self, backdrop: Vec<u8>) -> Self {
-        Self { backdrop, ..self }
+    /// Creates an executor that draws with one thread per core.
+    #[expect(clippy::disallowed_methods, reason = "any number of threads makes the same bytes")]
+    pub fn on_all_cores() -> Self {
+        Self::new(thread::available_parallelism().unwrap_or(NonZero::<usize>::MIN))
     }
 
     /// Replaces `rows` by the pixels of the drawing: red, green, blue, alpha, top row first, no padding.
-    pub fn execute(&mut self, drawing: &Drawing, textures: &Textures, rows: &mut Vec<u8>) {
+    pub fn execute(&mut self, drawing: &Drawing, rows: &mut Vec<u8>) {
+        self.rasterizer.draw(drawing, &self.textures.update(drawing), rows);
+    }
+}
+
+/// Calculates the pixels of drawings of one renderer, in any order.
+#[derive(Debug)]
+pub struct Rasterizer {
+    threads: NonZero<usize>,
+    /// The id of the backdrop, if there is one, and its pixels.
+    backdrop_id: Option<u64>,
+    backdrop: Vec<u8>,
+}
+
+impl Rasterizer {
+    /// Creates a rasterizer that draws with this number of threads.
+    pub fn new(threads: NonZero<usize>) -> Self {
+        Self { threads, backdrop_id: None, backdrop: Vec::new() }
+    }
+
+    /// [`CpuExecutor::execute`] with these textures.
+    pub(super) fn draw(&mut self, drawing: &Drawing, textures: &Textures, rows: &mut Vec<u8>) {
         let [width, height] = drawing.size_px.map(|side| side as usize);
         rows.resize(4 * width * height, 0);
         let pixels: &mut [Pixel] = rows.as_chunks_mut().0;
-        let Some(backdrop) = drawing.backdrop.filter(|_| pixels.len() <= MAX_BACKDROP_PIXELS)
-        else {
+        let Some(backdrop) = drawing.backdrop.filter(|_| self.has_room_for(pixels.len())) else {
             return self.paint(drawing, textures, pixels, 0..usize::MAX, None);
         };
         let covered = 1 + backdrop.draws;
@@ -94,6 +112,12 @@ impl CpuExecutor {
         }
         let below = self.backdrop.as_chunks().0;
         self.paint(drawing, textures, pixels, covered..usize::MAX, Some(below));
+    }
+
+    /// Whether there is memory for a backdrop of this number of pixels.
+    fn has_room_for(&mut self, pixels: usize) -> bool {
+        let missing = (4 * pixels).saturating_sub(self.backdrop.len());
+        self.backdrop.try_reserve_exact(missing).is_ok()
     }
 
     /// Paints parts of the drawing over `below` or black: part 0 is the sea, and part `n` is draw `n - 1`.
@@ -332,11 +356,13 @@ fn channels(colours: [Color32; 3]) -> [[f32; 3]; 4] {
 /// Those that round once after a product and a sum give a pixel of a letter another level than those that round
 /// twice: one pixel in some frames. All else in a frame is the same on every machine.
 pub fn letter_instructions() -> &'static str {
-    #[cfg(target_arch = "x86_64")]
-    if std::is_x86_feature_detected!("avx2") && std::is_x86_feature_detected!("fma") {
-        return "avx2";
+    match Level::new() {
+        #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
+        Level::Avx2(_) => "avx2",
+        #[cfg(target_arch = "aarch64")]
+        Level::Neon(_) => "neon",
+        _ => "none",
     }
-    if cfg!(target_arch = "aarch64") { "neon" } else { "none" }
 }
 
 #[cfg(test)]

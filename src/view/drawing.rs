@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use bytemuck::{Pod, Zeroable};
 use egui::epaint::{ImageDelta, Vertex, WHITE_UV};
-use egui::{Color32, TextureId};
+use egui::{Color32, Pos2, Rect, TextureId, pos2, vec2};
 
 use super::screen_transform::ScreenTransform;
 
@@ -34,22 +34,17 @@ impl Drawing {
         let of_letters = DrawKind::Textured(TextureId::default());
         for draw in self.draws.iter().filter(|draw| draw.kind == of_letters) {
             let transform = &self.transforms[draw.place as usize];
-            let [left, top, width_px, height_px] = draw.scissor_px;
-            let scissor = [[left, left + width_px], [top, top + height_px]];
+            let [left, top, width_px, height_px] = draw.scissor_px.map(|px| px as f32);
+            let scissor = Rect::from_min_size(pos2(left, top), vec2(width_px, height_px));
             let letters = self.triangles.corners(&draw.indices);
             for corners in letters.filter(|corners| corners.iter().any(|it| it.uv != WHITE_UV)) {
-                let at_px = corners.map(|corner| transform.px(corner.pos.into()));
-                let [columns, rows] = [0, 1].map(|axis| {
-                    let at = at_px.map(|at| at[axis]);
-                    let within = |px: f32| {
-                        (px as usize).clamp(scissor[axis][0] as usize, scissor[axis][1] as usize)
-                    };
-                    let low = at.into_iter().fold(f32::INFINITY, f32::min);
-                    let high = at.into_iter().fold(f32::NEG_INFINITY, f32::max);
-                    within(low)..within(high.ceil())
-                });
-                for row in rows {
-                    has_letters[row * width..][columns.clone()].fill(true);
+                let at_px = corners.map(|corner| Pos2::from(transform.px(corner.pos.into())));
+                let Rect { min, max } = Rect::from_points(&at_px).intersect(scissor);
+                if min.x < max.x {
+                    for row in min.y as usize..max.y.ceil() as usize {
+                        let columns = min.x as usize..max.x.ceil() as usize;
+                        has_letters[row * width..][columns].fill(true);
+                    }
                 }
             }
         }

@@ -15,9 +15,6 @@ use super::screen_transform::ScreenTransform;
 /// Initial capacity of a buffer in bytes. It grows by doubling.
 const FIRST_CAPACITY: u64 = 1 << 16;
 
-/// No backdrop is kept for a larger target, because it would take as much memory again.
-const MAX_BACKDROP_PIXELS: u64 = 4096 * 4096;
-
 /// `ScreenTransform` in `shaders/screen_transform.wgsl`.
 #[repr(C)]
 #[derive(Clone, Copy, Pod, Zeroable)]
@@ -302,12 +299,11 @@ pub(super) fn new_texture(
 
 /// Whether a texture of this format and of the target's size can be copied to the target.
 fn accepts_copies(target: &wgpu::Texture, format: wgpu::TextureFormat) -> bool {
-    let pixels = u64::from(target.width()) * u64::from(target.height());
     let is_plain = target.depth_or_array_layers() == 1
         && target.mip_level_count() == 1
         && target.sample_count() == 1;
     let usage = target.usage().contains(wgpu::TextureUsages::COPY_DST);
-    usage && is_plain && target.format() == format && pixels <= MAX_BACKDROP_PIXELS
+    usage && is_plain && target.format() == format
 }
 
 /// Begins a pass on a black target, or on its present contents.

@@ -39,16 +39,16 @@ pub use {egui, wgpu};
 pub use chart::AxisScale;
 pub use chart::figure::{Axis, Chart, Figure, FigureCurve, Legend};
 pub use copying::{ClipboardText, clipboard_text};
-pub use cpu_executor::{CpuExecutor, Textures, letter_instructions};
+pub use cpu_executor::{CpuExecutor, Rasterizer, letter_instructions};
 pub use drawing::Drawing;
 pub use frame::{FrameOutput, FrameRenderer, LaidOutFrame};
 pub use gpu::{Gpu, GpuError, RendererChoice};
 pub use gpu_executor::GpuExecutor;
 pub use keyboard::{Meaning, Modifiers, bound_key, command_of};
-pub use offscreen_renderer::{FrameSizeError, Offscreen, OffscreenRenderer, PreparedFrame};
+pub use offscreen_renderer::{FrameSizeError, OffscreenRenderer, PreparedFrame};
 pub use panels::Panels;
 pub use pixel_difference::{PixelDifference, PixelLimits};
-pub use readback::{Readback, ReadbackError};
+pub use readback::ReadbackError;
 pub use screen::Screen;
 
 /// The values of the selected instrument, as lines of comma-separated text under a heading; `None` if it has no

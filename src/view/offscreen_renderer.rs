@@ -1,13 +1,13 @@
 //! Frames without a window, for captures, screenshots and tests.
 
 use std::mem;
-use std::num::NonZero;
-use std::thread;
 
+use super::cpu_executor::Textures;
 use super::gpu_executor::new_texture;
+use super::readback::Readback;
 use super::{
-    CpuExecutor, Drawing, Figure, FrameRenderer, Gpu, GpuExecutor, Panels, Readback, ReadbackError,
-    Textures,
+    CpuExecutor, Drawing, Figure, FrameRenderer, Gpu, GpuExecutor, Panels, Rasterizer,
+    ReadbackError,
 };
 use crate::studio::Studio;
 
@@ -55,45 +55,29 @@ impl FrameSizeError {
     }
 }
 
-/// An empty buffer with room for a frame. A buffer that grows without memory would end the process.
-fn room_for(size_px: [u32; 2]) -> Result<Vec<u8>, FrameSizeError> {
-    let [width, height] = size_px.map(|side| side as usize);
-    let mut buffer = Vec::new();
-    let reserved = buffer.try_reserve_exact(4 * width * height);
-    reserved.map(|()| buffer).map_err(|_| FrameSizeError::OutOfMemory { size_px })
-}
-
 /// A texture to draw on and to read back.
-#[derive(Debug)]
-pub struct Offscreen {
-    /// For [`Readback`](super::Readback).
-    pub texture: wgpu::Texture,
-    /// For [`GpuExecutor::encode`](super::GpuExecutor::encode).
-    pub view: wgpu::TextureView,
-    /// Width and height in pixels.
-    pub size_px: [u32; 2],
+pub(super) struct Offscreen {
+    pub(super) texture: wgpu::Texture,
+    pub(super) view: wgpu::TextureView,
 }
 
 impl Offscreen {
-    /// Format of every such texture: gamma space, red first.
-    pub const FORMAT: wgpu::TextureFormat = Gpu::OFFSCREEN_FORMAT;
-
     /// Creates a texture of `size_px` with undefined contents.
     ///
     /// # Errors
     /// A [`FrameSizeError`].
-    pub fn new(gpu: &Gpu, size_px: [u32; 2]) -> Result<Self, FrameSizeError> {
+    pub(super) fn new(gpu: &Gpu, size_px: [u32; 2]) -> Result<Self, FrameSizeError> {
         FrameSizeError::check(size_px, gpu.max_texture_side_px)?;
         let scope = gpu.device.push_error_scope(wgpu::ErrorFilter::OutOfMemory);
         let usage = wgpu::TextureUsages::RENDER_ATTACHMENT
             | wgpu::TextureUsages::COPY_SRC
             | wgpu::TextureUsages::COPY_DST;
-        let texture = new_texture(gpu, "offscreen", size_px, Self::FORMAT, usage);
+        let texture = new_texture(gpu, "offscreen", size_px, Gpu::OFFSCREEN_FORMAT, usage);
         if pollster::block_on(scope.pop()).is_some() {
             return Err(FrameSizeError::OutOfMemory { size_px });
         }
         let view = texture.create_view(&wgpu::TextureViewDescriptor::default());
-        Ok(Self { texture, view, size_px })
+        Ok(Self { texture, view })
     }
 }
 
@@ -106,7 +90,7 @@ pub struct OffscreenRenderer {
 }
 
 enum DrawnBy {
-    Processor { textures: Textures, executor: CpuExecutor },
+    Processor(CpuExecutor),
     Device(Box<OnDevice>),
 }
 
@@ -127,20 +111,19 @@ enum Prepared {
 }
 
 impl PreparedFrame {
-    /// Whether each pixel, in rows from the top, lies in the rectangle of a letter. Empty if a device has drawn the
+    /// Whether each pixel, in rows from the top, lies in the rectangle of a letter. `None` if a device has drawn the
     /// frame.
-    pub fn has_letters(&self) -> Vec<bool> {
+    pub fn has_letters(&self) -> Option<Vec<bool>> {
         match &self.0 {
-            Prepared::Drawing(drawing, _) => drawing.has_letters(),
-            Prepared::Rows(_) => Vec::new(),
+            Prepared::Drawing(drawing, _) => Some(drawing.has_letters()),
+            Prepared::Rows(_) => None,
         }
     }
 
-    /// Replaces `rgba` by the frame's pixels, top row first. The executor must draw frames of one renderer only, in
-    /// any order. Call it once.
-    pub fn finish(&mut self, executor: &mut CpuExecutor, rgba: &mut Vec<u8>) {
+    /// Replaces `rgba` by the frame's pixels, top row first. Call it once.
+    pub fn finish(&mut self, rasterizer: &mut Rasterizer, rgba: &mut Vec<u8>) {
         match &mut self.0 {
-            Prepared::Drawing(drawing, textures) => executor.execute(drawing, textures, rgba),
+            Prepared::Drawing(drawing, textures) => rasterizer.draw(drawing, textures, rgba),
             Prepared::Rows(rows) => mem::swap(rows, rgba),
         }
     }
@@ -151,18 +134,13 @@ impl OffscreenRenderer {
     ///
     /// # Errors
     /// A [`FrameSizeError`].
-    #[expect(clippy::disallowed_methods, reason = "any number of threads makes the same bytes")]
     pub fn new(size_px: [u32; 2], scale: f32) -> Result<Self, FrameSizeError> {
         FrameSizeError::check(size_px, MAX_SIDE_PX)?;
-        let threads = thread::available_parallelism().unwrap_or(NonZero::<usize>::MIN);
         Ok(Self {
             renderer: FrameRenderer::new(CpuExecutor::MAX_TEXTURE_SIDE_PX),
             size_px,
             scale,
-            drawn_by: DrawnBy::Processor {
-                textures: Textures::default(),
-                executor: CpuExecutor::new(threads).with_room(room_for(size_px)?),
-            },
+            drawn_by: DrawnBy::Processor(CpuExecutor::on_all_cores()),
         })
     }
 
@@ -171,27 +149,26 @@ impl OffscreenRenderer {
     /// # Errors
     /// A [`FrameSizeError`].
     pub fn on_gpu(gpu: Gpu, size_px: [u32; 2], scale: f32) -> Result<Self, FrameSizeError> {
-        let canvas = Offscreen::new(&gpu, size_px)?;
         let renderer = FrameRenderer::new(gpu.max_texture_side_px);
-        let executor = GpuExecutor::new(&gpu);
-        let device = OnDevice { gpu, executor, canvas, readback: Readback::default() };
+        let device = OnDevice {
+            executor: GpuExecutor::new(&gpu),
+            canvas: Offscreen::new(&gpu, size_px)?,
+            readback: Readback::default(),
+            gpu,
+        };
         Ok(Self { renderer, size_px, scale, drawn_by: DrawnBy::Device(Box::new(device)) })
     }
 
-    /// An empty buffer with room for a frame.
+    /// An empty buffer with room for a frame. A buffer that grows without memory would end the process.
     ///
     /// # Errors
     /// [`FrameSizeError::OutOfMemory`].
     pub fn buffer(&self) -> Result<Vec<u8>, FrameSizeError> {
-        room_for(self.size_px)
-    }
-
-    /// An executor for [`PreparedFrame::finish`] on one thread, with room for its backdrop.
-    ///
-    /// # Errors
-    /// [`FrameSizeError::OutOfMemory`].
-    pub fn executor(&self) -> Result<CpuExecutor, FrameSizeError> {
-        Ok(CpuExecutor::new(NonZero::<usize>::MIN).with_room(room_for(self.size_px)?))
+        let size_px = self.size_px;
+        let [width, height] = size_px.map(|side| side as usize);
+        let mut buffer = Vec::new();
+        let reserved = buffer.try_reserve_exact(4 * width * height);
+        reserved.map(|()| buffer).map_err(|_| FrameSizeError::OutOfMemory { size_px })
     }
 
     /// Sets which panels to draw. The default is [`Panels::Shown`].
@@ -207,7 +184,7 @@ impl OffscreenRenderer {
     /// Name, backend and driver of the adapter; `None` if the processor draws.
     pub fn adapter(&self) -> Option<&wgpu::AdapterInfo> {
         match &self.drawn_by {
-            DrawnBy::Processor { .. } => None,
+            DrawnBy::Processor(_) => None,
             DrawnBy::Device(device) => Some(&device.gpu.info),
         }
     }
@@ -246,8 +223,8 @@ impl OffscreenRenderer {
     pub fn prepare(&mut self, studio: &Studio) -> Result<PreparedFrame, ReadbackError> {
         let drawing = self.drawing(studio);
         Ok(PreparedFrame(match &mut self.drawn_by {
-            DrawnBy::Processor { textures, .. } => {
-                let present = textures.update(&drawing);
+            DrawnBy::Processor(executor) => {
+                let present = executor.textures.update(&drawing);
                 Prepared::Drawing(Box::new(drawing), present)
             }
             DrawnBy::Device(device) => {
@@ -267,8 +244,8 @@ impl OffscreenRenderer {
 
     fn execute(&mut self, drawing: Drawing, rgba: &mut Vec<u8>) -> Result<(), ReadbackError> {
         match &mut self.drawn_by {
-            DrawnBy::Processor { textures, executor } => {
-                executor.execute(&drawing, &textures.update(&drawing), rgba);
+            DrawnBy::Processor(executor) => {
+                executor.execute(&drawing, rgba);
                 Ok(())
             }
             DrawnBy::Device(device) => device.execute(&drawing, rgba),

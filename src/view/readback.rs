@@ -24,39 +24,27 @@ pub enum ReadbackError {
         /// Error message of the device.
         reason: String,
     },
-    /// The texture does not have four 8-bit channels.
-    #[error("frames of format {format:?} cannot be read back; draw to Rgba8Unorm or Bgra8Unorm")]
-    Format {
-        /// The texture's format.
-        format: wgpu::TextureFormat,
-    },
 }
 
 /// Reads textures back, and reuses its buffer from frame to frame.
 #[derive(Debug, Default)]
-pub struct Readback {
+pub(super) struct Readback {
     spare: Option<wgpu::Buffer>,
 }
 
 impl Readback {
-    /// Submits `drawing`, waits for all work so far, and replaces `rows` by the texture's pixels: red, green, blue,
-    /// alpha, top row first, no padding. The texture needs `COPY_SRC`.
+    /// Submits `commands`, waits for all work so far, and replaces `rows` by the pixels of the texture, which is one of
+    /// [`Offscreen`](super::offscreen_renderer::Offscreen): top row first, no padding.
     ///
     /// # Errors
     /// A [`ReadbackError`]; `rows` is then unspecified.
-    pub fn read(
+    pub(super) fn read(
         &mut self,
         gpu: &Gpu,
-        drawing: Option<wgpu::CommandBuffer>,
+        commands: Option<wgpu::CommandBuffer>,
         texture: &wgpu::Texture,
         rows: &mut Vec<u8>,
     ) -> Result<(), ReadbackError> {
-        let format = texture.format();
-        let blue_first = match format {
-            wgpu::TextureFormat::Rgba8Unorm => false,
-            wgpu::TextureFormat::Bgra8Unorm => true,
-            _ => return Err(ReadbackError::Format { format }),
-        };
         if gpu.is_lost() {
             return Err(ReadbackError::DeviceLost);
         }
@@ -85,7 +73,7 @@ impl Readback {
             },
             texture.size(),
         );
-        let submission = gpu.queue.submit(drawing.into_iter().chain([encoder.finish()]));
+        let submission = gpu.queue.submit(commands.into_iter().chain([encoder.finish()]));
         wait_until_mapped(gpu, &buffer, submission)?;
         rows.clear();
         {
@@ -99,11 +87,6 @@ impl Readback {
         }
         buffer.unmap();
         self.spare = Some(buffer);
-        if blue_first {
-            for pixel in rows.chunks_exact_mut(4) {
-                pixel.swap(0, 2);
-            }
-        }
         Ok(())
     }
 }
@@ -137,12 +120,7 @@ mod tests {
     use crate::view::testing::gpu_or_skip;
 
     /// A texture holding `rows`, uploaded rather than drawn.
-    fn uploaded(
-        gpu: &Gpu,
-        format: wgpu::TextureFormat,
-        [width, height]: [u32; 2],
-        rows: &[u8],
-    ) -> wgpu::Texture {
+    fn uploaded(gpu: &Gpu, [width, height]: [u32; 2], rows: &[u8]) -> wgpu::Texture {
         let size = wgpu::Extent3d { width, height, depth_or_array_layers: 1 };
         let texture = gpu.device.create_texture(&wgpu::TextureDescriptor {
             label: None,
@@ -150,7 +128,7 @@ mod tests {
             mip_level_count: 1,
             sample_count: 1,
             dimension: wgpu::TextureDimension::D2,
-            format,
+            format: Gpu::OFFSCREEN_FORMAT,
             usage: wgpu::TextureUsages::COPY_DST | wgpu::TextureUsages::COPY_SRC,
             view_formats: &[],
         });
@@ -170,28 +148,16 @@ mod tests {
         let mut rows = Vec::new();
         for [width, height] in [[1, 1], [63, 5], [64, 5], [65, 5], [257, 3]] {
             let sent: Vec<u8> = (0..4 * width * height).map(|i| (i * 7 % 251) as u8).collect();
-            let format = wgpu::TextureFormat::Rgba8Unorm;
-            let texture = uploaded(&gpu, format, [width, height], &sent);
+            let texture = uploaded(&gpu, [width, height], &sent);
             readback.read(&gpu, None, &texture, &mut rows).unwrap();
             assert_eq!(rows, sent, "{width}x{height}");
         }
     }
 
     #[test]
-    fn pixels_are_rgba_even_from_a_bgra_texture() {
-        let Some(gpu) = gpu_or_skip("pixels_are_rgba_even_from_a_bgra_texture") else { return };
-        let format = wgpu::TextureFormat::Bgra8Unorm;
-        let texture = uploaded(&gpu, format, [1, 1], &[10, 20, 30, 40]);
-        let mut rows = Vec::new();
-        Readback::default().read(&gpu, None, &texture, &mut rows).unwrap();
-        assert_eq!(rows, [30, 20, 10, 40]);
-    }
-
-    #[test]
     fn reading_from_a_lost_device_is_an_error() {
         let Some(gpu) = gpu_or_skip("reading_from_a_lost_device_is_an_error") else { return };
-        let format = wgpu::TextureFormat::Rgba8Unorm;
-        let texture = uploaded(&gpu, format, [1, 1], &[0; 4]);
+        let texture = uploaded(&gpu, [1, 1], &[0; 4]);
         gpu.device.destroy();
         let error = Readback::default().read(&gpu, None, &texture, &mut Vec::new()).unwrap_err();
         assert!(matches!(error, ReadbackError::DeviceLost), "{error}");

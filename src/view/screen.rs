@@ -45,7 +45,7 @@ impl Screen {
     /// # Errors
     /// [`GpuError::NoAdapter`] or [`GpuError::DeviceRefused`].
     pub async fn gpu(&self, choice: RendererChoice) -> Result<Gpu, GpuError> {
-        Gpu::choose(&self.instance, Some(&self.surface), choice).await
+        Gpu::choose(&self.instance, Some(&self.surface), choice).await.inspect(Gpu::log)
     }
 
     /// The same screen with a new surface, for [`wgpu::CurrentSurfaceTexture::Lost`].
@@ -73,7 +73,7 @@ impl Screen {
     pub fn configure(&self, gpu: &Gpu, size_px: [u32; 2]) {
         let [width, height] = size_px.map(|side| side.clamp(1, gpu.max_texture_side_px));
         let configuration = wgpu::SurfaceConfiguration {
-            // Not every surface accepts copies, which a backdrop and kept panels need.
+            // Not every surface accepts copies, which a backdrop needs.
             usage: self.surface.get_capabilities(&gpu.adapter).usages
                 & wgpu::TextureUsages::COPY_DST
                 | wgpu::TextureUsages::RENDER_ATTACHMENT,

@@ -9,6 +9,9 @@ use crate::stage::{FAR, Picture, Rect, Sea};
 /// A rectangle that clips nothing.
 const EVERYWHERE: Rect = Rect { min: [-FAR; 2], max: [FAR; 2] };
 
+/// A larger frame has no backdrop, because an executor would need as much memory again.
+const MAX_BACKDROP_PIXELS: u64 = 4096 * 4096;
+
 /// The part of the frame that panels leave free, and its picture.
 #[derive(Clone, Debug)]
 pub(super) struct Stage {
@@ -42,7 +45,9 @@ pub(super) fn draw_stage(
     let cover = backdrops.choose_cover(&transform, &picture);
     let (below, above) = picture.shapes.split_at(cover.map_or(0, |cover| cover.shapes));
     draw_shapes(drawing, below, &transform);
-    drawing.backdrop = cover.map(|cover| Backdrop { id: cover.id, draws: drawing.draws.len() });
+    let is_small = size_px.map(u64::from).iter().product::<u64>() <= MAX_BACKDROP_PIXELS;
+    let backdrop = cover.filter(|_| is_small);
+    drawing.backdrop = backdrop.map(|cover| Backdrop { id: cover.id, draws: drawing.draws.len() });
     draw_shapes(drawing, above, &transform);
     backdrops.keep_picture(transform, picture);
 }

@@ -6,12 +6,11 @@ use std::num::NonZero;
 use egui::epaint::TextShape;
 use egui::{Context, Event, Modifiers, PointerButton, Pos2, RawInput, Ui, Vec2};
 
+use super::offscreen_renderer::Offscreen;
 use super::panels::RING;
+use super::readback::Readback;
 use super::stage::Stage;
-use super::{
-    CpuExecutor, Drawing, Gpu, GpuExecutor, Offscreen, Readback, RendererChoice, Textures, panels,
-    theme,
-};
+use super::{CpuExecutor, Drawing, Gpu, GpuExecutor, RendererChoice, panels, theme};
 use crate::stage::{Picture, Rect};
 use crate::studio::{Command, Studio};
 use crate::view::backdrop::BackdropFinder;
@@ -50,26 +49,19 @@ impl Pixels {
 
 /// Draws a picture alone on black, with a stage that fills the target at `scale` pixels per point.
 pub(super) fn draw_picture(size_px: [u32; 2], scale: f32, picture: &Picture) -> Pixels {
-    Painter::new().paint(&stage_alone(&mut BackdropFinder::default(), size_px, scale, picture))
+    let drawing = stage_alone(&mut BackdropFinder::default(), size_px, scale, picture);
+    paint(&mut executor(), &drawing)
 }
 
-/// Paints the drawings of one renderer.
-pub(super) struct Painter {
-    pub(super) executor: CpuExecutor,
-    pub(super) textures: Textures,
+pub(super) fn executor() -> CpuExecutor {
+    CpuExecutor::new(NonZero::<usize>::MIN)
 }
 
-impl Painter {
-    pub(super) fn new() -> Self {
-        let executor = CpuExecutor::new(NonZero::<usize>::MIN);
-        Self { executor, textures: Textures::default() }
-    }
-
-    pub(super) fn paint(&mut self, drawing: &Drawing) -> Pixels {
-        let mut rows = Vec::new();
-        self.executor.execute(drawing, &self.textures.update(drawing), &mut rows);
-        Pixels { size_px: drawing.size_px, rows }
-    }
+/// The pixels of the next drawing of an executor's renderer.
+pub(super) fn paint(executor: &mut CpuExecutor, drawing: &Drawing) -> Pixels {
+    let mut rows = Vec::new();
+    executor.execute(drawing, &mut rows);
+    Pixels { size_px: drawing.size_px, rows }
 }
 
 /// The drawing of a picture alone, with a stage that fills the target at `scale` pixels per point.
@@ -93,7 +85,7 @@ pub(super) fn paint_on(gpu: &Gpu, executor: &mut GpuExecutor, drawing: &Drawing)
     let mut rows = Vec::new();
     let read = Readback::default().read(gpu, commands, &target.texture, &mut rows);
     read.expect("a fresh target can be read");
-    Pixels { size_px: target.size_px, rows }
+    Pixels { size_px: drawing.size_px, rows }
 }
 
 /// A clip rectangle that clips nothing.

@@ -46,7 +46,7 @@ impl Canvas {
     ) -> Result<Self, WindowError> {
         let presenter = Presenter::new(event_loop, &window, choice)?;
         let renderer = FrameRenderer::new(presenter.max_texture_side_px());
-        let egui = translator(&renderer, &window, presenter.max_texture_side_px());
+        let egui = translator(&renderer, &window);
         let mut canvas = Self {
             window,
             egui,
@@ -87,16 +87,16 @@ impl Canvas {
         if self.presenter.renew(&self.window)? {
             self.renew_renderer();
         }
-        let Some(target) = self.presenter.acquire() else { return Ok(FrameOutcome::Skipped) };
+        let Some(size_px) = self.presenter.acquire() else { return Ok(FrameOutcome::Skipped) };
         // Not by `take_egui_input`, which asks the window for its size and panics if the display has destroyed it.
         let input = self.egui.egui_input_mut();
         input.time = Some(self.opened.elapsed().as_secs_f64());
         let input = input.take();
         let scale = self.window.scale_factor() as f32;
-        let (commands, output) = self.renderer.draw(target.size_px, scale, input, studio);
+        let (commands, output) = self.renderer.draw(size_px, scale, input, studio);
         clipboard.set_copied(&output.platform.commands);
         self.egui.handle_platform_output(&self.window, output.platform);
-        self.presenter.present(target, &output.drawing, &self.window)?;
+        self.presenter.present(&output.drawing, &self.window)?;
         Ok(FrameOutcome::Shown { commands, repaint_after: output.repaint_delay })
     }
 
@@ -112,9 +112,8 @@ impl Canvas {
 
     /// Replaces the renderer. The old one assumes that its fonts are on the device.
     fn renew_renderer(&mut self) {
-        let max_texture_side_px = self.presenter.max_texture_side_px();
-        self.renderer = FrameRenderer::new(max_texture_side_px);
-        let egui = translator(&self.renderer, &self.window, max_texture_side_px);
+        self.renderer = FrameRenderer::new(self.presenter.max_texture_side_px());
+        let egui = translator(&self.renderer, &self.window);
         let lost = mem::replace(&mut self.egui, egui);
         #[cfg(feature = "accessibility")]
         {
@@ -126,17 +125,14 @@ impl Canvas {
 }
 
 /// Translates the window's events to those of the renderer's panels.
-fn translator(
-    renderer: &FrameRenderer,
-    window: &Window,
-    max_texture_side_px: u32,
-) -> egui_winit::State {
+fn translator(renderer: &FrameRenderer, window: &Window) -> egui_winit::State {
     egui_winit::State::new(
         renderer.context().clone(),
         egui::ViewportId::ROOT,
         window,
         Some(window.scale_factor() as f32),
         None,
-        Some(max_texture_side_px as usize),
+        // The renderer sets it.
+        None,
     )
 }

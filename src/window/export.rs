@@ -6,7 +6,9 @@ use std::path::PathBuf;
 use super::App;
 use crate::atomic_file::{IfExists, write_file};
 use crate::studio::{DriverRequest, Studio, instrument_file_name, picture_file_name};
-use crate::view::{OffscreenRenderer, Panels, clipboard_text, instrument_csv, instrument_svg, png};
+use crate::view::{
+    FrameSizeError, OffscreenRenderer, Panels, clipboard_text, instrument_csv, instrument_svg, png,
+};
 
 /// Size of the picture in pixels, and its pixels per point.
 const SIZE_PX: [u32; 2] = [1920, 1200];
@@ -46,13 +48,7 @@ fn save(studio: &Studio) -> String {
 /// Saves a picture and a table, and a drawing if the instrument's plots can be drawn.
 fn try_save(studio: &Studio) -> Result<Vec<PathBuf>, String> {
     let csv = instrument_csv(studio).ok_or("this instrument has no plots")?;
-    let mut rgba = Vec::new();
-    OffscreenRenderer::new(SIZE_PX, SCALE)
-        .map_err(|error| error.to_string())?
-        .with_panels(Panels::Instrument)
-        .draw(studio, &mut rgba)
-        .map_err(|error| error.to_string())?;
-    let png = png::encode(SIZE_PX, &rgba);
+    let png = picture(SIZE_PX, SCALE, Panels::Instrument, studio)?;
     let svg = instrument_svg(studio).map(String::into_bytes);
     let files = [("png", Some(png)), ("svg", svg), ("csv", Some(csv.concat().into_bytes()))];
     let name = instrument_file_name(studio);
@@ -75,12 +71,22 @@ pub(super) fn save_screenshot(size_px: [u32; 2], scale: f32, studio: &Studio) ->
 }
 
 fn screenshot(size_px: [u32; 2], scale: f32, studio: &Studio) -> Result<PathBuf, String> {
-    let mut rgba = Vec::new();
-    OffscreenRenderer::new(size_px, scale)
-        .map_err(|error| error.to_string())?
-        .draw(studio, &mut rgba)
-        .map_err(|error| error.to_string())?;
-    write(&format!("{}.png", picture_file_name(studio)), &png::encode(size_px, &rgba))
+    let picture = picture(size_px, scale, Panels::Shown, studio)?;
+    write(&format!("{}.png", picture_file_name(studio)), &picture)
+}
+
+/// Draws the studio into a PNG file.
+fn picture(
+    size_px: [u32; 2],
+    scale: f32,
+    shown: Panels,
+    studio: &Studio,
+) -> Result<Vec<u8>, String> {
+    let no_room = |error: FrameSizeError| error.to_string();
+    let mut renderer = OffscreenRenderer::new(size_px, scale).map_err(no_room)?.with_panels(shown);
+    let mut rgba = renderer.buffer().map_err(no_room)?;
+    renderer.draw(studio, &mut rgba).map_err(|error| error.to_string())?;
+    Ok(png::encode(size_px, &rgba))
 }
 
 /// Saves the run so far as a scene file under a new name. Returns a notice with the name or the error.

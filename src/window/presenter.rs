@@ -2,7 +2,6 @@
 
 use std::num::NonZero;
 use std::sync::Arc;
-use std::thread;
 
 use pollster::block_on;
 use softbuffer::{Context, SoftBufferError, Surface};
@@ -10,26 +9,12 @@ use winit::event_loop::{ActiveEventLoop, OwnedDisplayHandle};
 use winit::window::Window;
 
 use super::WindowError;
-use crate::view::{
-    CpuExecutor, Drawing, Gpu, GpuError, GpuExecutor, RendererChoice, Screen, Textures,
-};
+use crate::view::{CpuExecutor, Drawing, Gpu, GpuError, GpuExecutor, RendererChoice, Screen};
 
 /// Shows the drawings of one renderer.
 pub(super) enum Presenter {
     Device(Box<Device>),
     Processor(Box<Processor>),
-}
-
-/// The target of the next drawing.
-pub(super) struct Target {
-    pub(super) size_px: [u32; 2],
-    texture: Option<AcquiredTexture>,
-}
-
-struct AcquiredTexture {
-    texture: wgpu::SurfaceTexture,
-    /// Whether the surface must be configured again afterwards.
-    is_suboptimal: bool,
 }
 
 impl Presenter {
@@ -39,17 +24,14 @@ impl Presenter {
         choice: RendererChoice,
     ) -> Result<Self, WindowError> {
         let display = event_loop.owned_display_handle();
-        if choice == RendererChoice::Cpu {
-            return Ok(Self::Processor(Box::new(Processor::new(display, window)?)));
-        }
-        match Device::open(display.clone(), window, choice) {
-            Ok(device) => Ok(Self::Device(Box::new(device))),
-            Err(error) if choice == RendererChoice::Gpu => Err(error.into()),
-            Err(error) => {
-                log::info!("{error}");
-                Ok(Self::Processor(Box::new(Processor::new(display, window)?)))
+        if choice != RendererChoice::Cpu {
+            match Device::open(display.clone(), window, choice) {
+                Ok(device) => return Ok(Self::Device(Box::new(device))),
+                Err(error) if choice == RendererChoice::Gpu => return Err(error.into()),
+                Err(error) => log::info!("{error}"),
             }
         }
+        Ok(Self::Processor(Box::new(Processor::new(display, window)?)))
     }
 
     /// Longest side of a texture in its drawings.
@@ -74,33 +56,36 @@ impl Presenter {
     /// Replaces what the driver has lost. Returns true if the next drawing must come from a new renderer, because the
     /// textures of the old one are gone.
     pub(super) fn renew(&mut self, window: &Arc<Window>) -> Result<bool, WindowError> {
-        match self {
-            Self::Device(device) => device.renew(window),
-            Self::Processor(_) => Ok(false),
+        let Self::Device(device) = self else { return Ok(false) };
+        match device.renew(window) {
+            Err(error) if device.choice == RendererChoice::Auto => {
+                log::info!("{error}");
+                let mut processor = Processor::new(device.display.clone(), window)?;
+                processor.size_px = device.size_px;
+                *self = Self::Processor(Box::new(processor));
+                Ok(true)
+            }
+            renewed => Ok(renewed?),
         }
     }
 
-    /// The target of the next drawing; `None` if nothing can be shown at the moment.
-    pub(super) fn acquire(&mut self) -> Option<Target> {
+    /// Makes the target of the next drawing ready. Returns its size; `None` if nothing can be shown at the moment.
+    pub(super) fn acquire(&mut self) -> Option<[u32; 2]> {
         match self {
             Self::Device(device) => device.acquire(),
-            Self::Processor(processor) => {
-                Some(Target { size_px: processor.size_px, texture: None })
-            }
+            Self::Processor(processor) => Some(processor.size_px),
         }
     }
 
     /// Draws on the target and shows it.
     pub(super) fn present(
         &mut self,
-        target: Target,
         drawing: &Drawing,
         window: &Window,
     ) -> Result<(), WindowError> {
-        match (self, target.texture) {
-            (Self::Device(device), Some(texture)) => device.present(texture, drawing, window),
-            (Self::Processor(processor), _) => return processor.present(drawing, window),
-            (Self::Device(_), None) => {}
+        match self {
+            Self::Device(device) => device.present(drawing, window),
+            Self::Processor(processor) => return processor.present(drawing, window),
         }
         Ok(())
     }
@@ -114,6 +99,10 @@ pub(super) struct Device {
     screen: Option<Screen>,
     surface_is_lost: bool,
     size_px: [u32; 2],
+    /// The target of the next drawing, and whether the surface must be configured again afterwards.
+    acquired: Option<(wgpu::SurfaceTexture, bool)>,
+    choice: RendererChoice,
+    display: OwnedDisplayHandle,
 }
 
 impl Device {
@@ -122,11 +111,18 @@ impl Device {
         window: &Arc<Window>,
         choice: RendererChoice,
     ) -> Result<Self, GpuError> {
-        let screen = block_on(Screen::new(Box::new(display), Arc::clone(window)))?;
+        let screen = block_on(Screen::new(Box::new(display.clone()), Arc::clone(window)))?;
         let gpu = block_on(screen.gpu(choice))?;
-        log::info!("drawing with {} ({})", gpu.info.name, gpu.info.backend);
-        let executor = GpuExecutor::new(&gpu);
-        Ok(Self { gpu, executor, screen: Some(screen), surface_is_lost: false, size_px: [0, 0] })
+        Ok(Self {
+            executor: GpuExecutor::new(&gpu),
+            gpu,
+            screen: Some(screen),
+            surface_is_lost: false,
+            size_px: [0, 0],
+            acquired: None,
+            choice,
+            display,
+        })
     }
 
     fn configure(&self) {
@@ -136,7 +132,7 @@ impl Device {
     }
 
     /// Creates a new surface, and a new device if the old one is lost or cannot present on it.
-    fn renew(&mut self, window: &Arc<Window>) -> Result<bool, WindowError> {
+    fn renew(&mut self, window: &Arc<Window>) -> Result<bool, GpuError> {
         if !self.surface_is_lost && !self.gpu.is_lost() {
             return Ok(false);
         }
@@ -144,8 +140,7 @@ impl Device {
         if let Some(screen) = self.screen.take() {
             let screen = screen.renewed(Arc::clone(window))?;
             if self.gpu.is_lost() || !self.gpu.adapter.is_surface_supported(screen.surface()) {
-                // A driver of any kind is better than none in the midst of a run.
-                self.gpu = block_on(screen.gpu(RendererChoice::Gpu))?;
+                self.gpu = block_on(screen.gpu(self.choice))?;
                 self.executor = GpuExecutor::new(&self.gpu);
                 is_new = true;
             }
@@ -156,16 +151,17 @@ impl Device {
         Ok(is_new)
     }
 
-    fn acquire(&mut self) -> Option<Target> {
+    fn acquire(&mut self) -> Option<[u32; 2]> {
         use wgpu::CurrentSurfaceTexture::*;
-        let acquired = |texture: wgpu::SurfaceTexture, is_suboptimal| {
-            let size_px = [texture.texture.width(), texture.texture.height()];
-            Some(Target { size_px, texture: Some(AcquiredTexture { texture, is_suboptimal }) })
-        };
         for _ in 0..2 {
-            match self.screen.as_ref()?.surface().get_current_texture() {
-                Success(texture) => return acquired(texture, false),
-                Suboptimal(texture) => return acquired(texture, true),
+            let found = self.screen.as_ref()?.surface().get_current_texture();
+            let is_suboptimal = matches!(found, Suboptimal(_));
+            match found {
+                Success(target) | Suboptimal(target) => {
+                    let size_px = [target.texture.width(), target.texture.height()];
+                    self.acquired = Some((target, is_suboptimal));
+                    return Some(size_px);
+                }
                 Timeout | Occluded => return None,
                 Outdated | Validation => self.configure(),
                 Lost => {
@@ -179,12 +175,12 @@ impl Device {
         None
     }
 
-    fn present(&mut self, target: AcquiredTexture, drawing: &Drawing, window: &Window) {
-        let AcquiredTexture { texture, is_suboptimal } = target;
-        let view = texture.texture.create_view(&wgpu::TextureViewDescriptor::default());
+    fn present(&mut self, drawing: &Drawing, window: &Window) {
+        let Some((target, is_suboptimal)) = self.acquired.take() else { return };
+        let view = target.texture.create_view(&wgpu::TextureViewDescriptor::default());
         self.gpu.queue.submit(self.executor.encode(&self.gpu, drawing, &view));
         window.pre_present_notify();
-        self.gpu.queue.present(texture);
+        self.gpu.queue.present(target);
         if is_suboptimal {
             self.configure();
         }
@@ -205,7 +201,6 @@ fn refused(error: SoftBufferError) -> WindowError {
 pub(super) struct Processor {
     surface: Surface<OwnedDisplayHandle, Arc<Window>>,
     executor: CpuExecutor,
-    textures: Textures,
     rows: Vec<u8>,
     size_px: [u32; 2],
 }
@@ -215,18 +210,16 @@ impl Processor {
         let context = Context::new(display).map_err(refused)?;
         let surface = Surface::new(&context, Arc::clone(window)).map_err(refused)?;
         log::info!("drawing with the processor");
-        let threads = thread::available_parallelism().unwrap_or(NonZero::<usize>::MIN);
-        let (executor, textures) = (CpuExecutor::new(threads), Textures::default());
-        Ok(Self { surface, executor, textures, rows: Vec::new(), size_px: [0, 0] })
+        let executor = CpuExecutor::on_all_cores();
+        Ok(Self { surface, executor, rows: Vec::new(), size_px: [0, 0] })
     }
 
     fn present(&mut self, drawing: &Drawing, window: &Window) -> Result<(), WindowError> {
-        let rows = &mut self.rows;
-        self.executor.execute(drawing, &self.textures.update(drawing), rows);
+        self.executor.execute(drawing, &mut self.rows);
         let [Some(width), Some(height)] = self.size_px.map(NonZero::new) else { return Ok(()) };
         self.surface.resize(width, height).map_err(refused)?;
         let mut buffer = self.surface.buffer_mut().map_err(refused)?;
-        for (to, [red, green, blue, _]) in buffer.iter_mut().zip(rows.as_chunks::<4>().0) {
+        for (to, [red, green, blue, _]) in buffer.iter_mut().zip(self.rows.as_chunks::<4>().0) {
             // Displays ignore the first byte, but a screenshot may take it for opacity.
             *to = u32::from_be_bytes([255, *red, *green, *blue]);
         }

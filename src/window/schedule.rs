@@ -19,7 +19,7 @@ impl App {
     ) {
         let Some(canvas) = &self.canvas else { return };
         let refresh = canvas.refresh_mhz.unwrap_or(USUAL_REFRESH_MHZ);
-        // A driver that waits for the display has already used this time; a software driver has not.
+        // A driver that waits for the display has already used this time; a software driver and the processor have not.
         let shortest = Duration::from_secs_f64(1000.0 / f64::from(refresh)).mul_f64(0.95);
         match began.checked_add(shortest.max(after)) {
             Some(due) if due <= Instant::now() => {

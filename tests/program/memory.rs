@@ -12,7 +12,7 @@ use egui::{
 };
 use regatta::scene::Scene;
 use regatta::studio::{KEYS, Studio, ViewCommand, open_file};
-use regatta::view::{CpuExecutor, FrameRenderer, Textures};
+use regatta::view::{CpuExecutor, FrameRenderer};
 
 use crate::dice::Dice;
 
@@ -60,7 +60,6 @@ struct Program {
     studio: Studio,
     renderer: FrameRenderer,
     executor: CpuExecutor,
-    textures: Textures,
     rows: Vec<u8>,
     time_s: f64,
 }
@@ -68,12 +67,12 @@ struct Program {
 impl Program {
     /// Shows a frame with these events in it, and performs its commands.
     fn frame(&mut self, events: Vec<Event>) {
-        let Self { studio, renderer, executor, textures, rows, time_s } = self;
+        let Self { studio, renderer, executor, rows, time_s } = self;
         *time_s += 1.0 / 60.0;
         studio.advance(16_666_667);
         let input = RawInput { time: Some(*time_s), events, ..RawInput::default() };
         let (commands, output) = renderer.draw(SIZE_PX, SCALE, input, studio);
-        executor.execute(&output.drawing, &textures.update(&output.drawing), rows);
+        executor.execute(&output.drawing, rows);
         for command in commands {
             studio.apply(command);
         }
@@ -138,8 +137,7 @@ fn hundreds_of_random_events_leak_at_most_a_few_megabytes() {
     studio.deck.set_rewind_bytes(REWIND_MB << 20);
     let renderer = FrameRenderer::new(4096);
     let executor = CpuExecutor::new(NonZero::<usize>::MIN);
-    let (textures, rows) = (Textures::default(), Vec::new());
-    let mut program = Program { studio, renderer, executor, textures, rows, time_s: 0.0 };
+    let mut program = Program { studio, renderer, executor, rows: Vec::new(), time_s: 0.0 };
     let mut dice = Dice::new(12);
     let mut held = Vec::new();
     for event in 1..=EVENTS {

@@ -6,7 +6,7 @@ use egui::accesskit::{Action, Node, Role};
 use egui::{Event, Key, Modifiers, PointerButton, Pos2, RawInput, Rect};
 use image::RgbaImage;
 use regatta::studio::{Command, Pace, Studio, run_loops};
-use regatta::view::{CpuExecutor, FrameRenderer, Textures};
+use regatta::view::{CpuExecutor, FrameRenderer};
 
 use crate::desk::Desk;
 
@@ -20,7 +20,6 @@ pub(crate) struct Twin {
     pub(crate) studio: Studio,
     renderer: FrameRenderer,
     executor: CpuExecutor,
-    textures: Textures,
     /// The accessible widgets of the last frame.
     nodes: Vec<Node>,
 }
@@ -32,17 +31,17 @@ impl Twin {
         let renderer = FrameRenderer::new(4096);
         let executor = CpuExecutor::new(NonZero::<usize>::MIN);
         renderer.context().enable_accesskit();
-        Self { studio, renderer, executor, textures: Textures::default(), nodes: Vec::new() }
+        Self { studio, renderer, executor, nodes: Vec::new() }
     }
 
     /// Shows a frame with this event, and applies its commands.
     fn frame(&mut self, event: Option<Event>) -> Vec<u8> {
         let events = event.into_iter().collect();
         let input = RawInput { events, focused: true, ..RawInput::default() };
-        let Self { studio, renderer, executor, textures, .. } = self;
+        let Self { studio, renderer, executor, .. } = self;
         let (commands, mut output) = renderer.draw(SIZE_PX, 1.0, input, studio);
         let mut rgba = Vec::new();
-        executor.execute(&output.drawing, &textures.update(&output.drawing), &mut rgba);
+        executor.execute(&output.drawing, &mut rgba);
         let update = output.platform.accesskit_update.take().expect("it is enabled");
         self.nodes = update.nodes.into_iter().map(|(_, node)| node).collect();
         for command in commands {

@@ -162,8 +162,9 @@ fn compare(
     let difference = PixelDifference::between(&then, now, |_| true);
     let was_altered = fingerprint(&then) != entry.pixels;
     let only_letters_differ = || {
-        let has_letters = prepared.has_letters();
-        PixelDifference::between(&then, now, |pixel| !has_letters[pixel]).worst() == 0
+        prepared.has_letters().is_some_and(|has_letters| {
+            PixelDifference::between(&then, now, |pixel| !has_letters[pixel]).worst() == 0
+        })
     };
     if limits.allow(&difference, only_letters_differ) && !was_altered {
         return None;

@@ -5,8 +5,8 @@ use super::*;
 use crate::scene::{SCENES, Scene};
 use crate::studio::{StageCommand, Studio};
 use crate::view::drawing::{Draw, Mesh, Place};
-use crate::view::testing::{Painter, Pixels, gpu_or_skip, paint_on};
-use crate::view::{FrameRenderer, GpuExecutor, PixelDifference, PixelLimits};
+use crate::view::testing::{Pixels, executor, gpu_or_skip, paint, paint_on};
+use crate::view::{FrameRenderer, GpuExecutor, PixelDifference};
 
 fn one_place(size_px: [u32; 2]) -> ScreenTransform {
     let [width, height] = size_px.map(|side| side as f32);
@@ -40,7 +40,7 @@ fn with_texture(mut drawing: Drawing, size: [usize; 2], pixels: Vec<Color32>) ->
 }
 
 fn drawn(drawing: &Drawing) -> Pixels {
-    Painter::new().paint(drawing)
+    paint(&mut executor(), drawing)
 }
 
 /// Whether each pixel of a row is lit, as a text.
@@ -202,13 +202,7 @@ fn any_number_of_threads_draws_the_same_bytes() {
     let drawings = race("harbour", [301, 173], 0.4, 6);
     let frames = |threads| {
         let mut executor = CpuExecutor::new(NonZero::new(threads).unwrap());
-        let mut textures = Textures::default();
-        let mut frame = |drawing| {
-            let mut rows = Vec::new();
-            executor.execute(drawing, &textures.update(drawing), &mut rows);
-            rows
-        };
-        drawings.iter().map(&mut frame).collect::<Vec<_>>()
+        drawings.iter().map(|drawing| paint(&mut executor, drawing).rows).collect::<Vec<_>>()
     };
     let alone = frames(1);
     assert!(alone[0].chunks_exact(4).all(|pixel| pixel[3] == 255));
@@ -244,17 +238,16 @@ fn processor_and_device_draw_every_scene_almost_alike() {
     let size_px = [640, 360];
     for scene in SCENES {
         let mut on_device = GpuExecutor::new(&gpu);
-        let mut painter = Painter::new();
+        let mut executor = executor();
         for drawing in race(scene.name, size_px, 0.7, 4) {
-            let [one, other] = [painter.paint(&drawing), paint_on(&gpu, &mut on_device, &drawing)];
+            let one = paint(&mut executor, &drawing);
+            let other = paint_on(&gpu, &mut on_device, &drawing);
             let difference = PixelDifference::between(&one.rows, &other.rows, |_| true);
-            let (beyond_one, worst) = (difference.beyond(1), difference.worst());
-            let is_alike = PixelLimits::OF_EXECUTORS.allow(&difference);
-            assert!(is_alike, "{}: worst {worst}", scene.name);
             let pixels = one.rows.len() / 4;
-            assert!(beyond_one <= pixels / 10_000, "{}: {beyond_one} by 2", scene.name);
-            let beyond_two = difference.beyond(2);
-            assert!(beyond_two <= pixels / 100_000, "{}: {beyond_two} by 3", scene.name);
+            for (difference_by, most) in [(1, pixels / 10_000), (2, pixels / 100_000)] {
+                let beyond = difference.beyond(difference_by);
+                assert!(beyond <= most, "{}: {beyond} by more than {difference_by}", scene.name);
+            }
         }
     }
 }

@@ -10,7 +10,7 @@ use super::spans::Ramp;
 
 /// Grid steps per pixel.
 const GRID: i64 = 256;
-/// Largest coordinate on the grid: a million pixels. Products of three must fit 64 bits.
+/// Largest coordinate on the grid: a million pixels. A sum of two products of coordinates must fit 64 bits.
 const MAX_GRID: f64 = (1_i64 << 28) as f64;
 
 /// Pixels that may be drawn on.

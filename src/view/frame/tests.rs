@@ -3,8 +3,9 @@ use crate::scene::Scene;
 use crate::stage::{Fill, Picture, Shape};
 use crate::studio::StageCommand;
 use crate::view::chart::{self, LineStyle, Primitive, ScreenCurve};
-use crate::view::testing::{EVERYWHERE, Painter, Pixels, gpu_or_skip, paint_on};
-use crate::view::{Gpu, GpuExecutor, Offscreen, RendererChoice};
+use crate::view::offscreen_renderer::Offscreen;
+use crate::view::testing::{EVERYWHERE, Pixels, executor, gpu_or_skip, paint, paint_on};
+use crate::view::{Gpu, GpuExecutor, RendererChoice};
 
 /// Longest side of a texture.
 const SIDE_PX: u32 = 4096;
@@ -28,7 +29,7 @@ fn draw(size_px: [u32; 2], scale: f32, picture: &Picture) -> Pixels {
     let input = egui::RawInput::default();
     let layout = renderer.lay_out_with(size_px, scale, input, |ui| show(ui, picture));
     let output = renderer.paint(size_px, layout);
-    Painter::new().paint(&output.drawing)
+    paint(&mut executor(), &output.drawing)
 }
 
 #[test]
@@ -39,14 +40,6 @@ fn the_stage_fills_the_room_beside_the_panels() {
         assert_eq!(pixels.at(edge / 2, 50), [0, 255, 0, 255]);
         assert_eq!(pixels.at(edge + 2, 50), [255, 0, 0, 255]);
         assert_eq!(pixels.at(199, 99), [255, 0, 0, 255]);
-    }
-}
-
-#[test]
-fn a_frame_of_one_pixel_is_drawn() {
-    for scale in [0.5, 1.0, 3.0] {
-        let pixels = draw([1, 1], scale, &red_everywhere());
-        assert_eq!(pixels.at(0, 0)[3], 255);
     }
 }
 
@@ -90,7 +83,7 @@ fn a_curve_is_drawn_dashed_and_clipped() {
         None
     });
     let drawing = renderer.paint([128, 64], layout).drawing;
-    let pixels = Painter::new().paint(&drawing);
+    let pixels = paint(&mut executor(), &drawing);
     for x in 10..128 {
         let [dashed, solid] = [20, 40].map(|y| pixels.at(x, y)[0]);
         assert_eq!(solid > 250, x < 100, "{x}");
@@ -147,19 +140,11 @@ fn the_first_frame_of_any_size_is_laid_out_like_the_next() {
     }
 }
 
-/// Paints the drawing with the painter of all earlier frames, and with a new executor. Both must show the same.
-fn paint_twice(painter: &mut Painter, drawing: &Drawing) -> Pixels {
-    let kept = painter.paint(drawing);
-    let mut fresh = Painter { textures: painter.textures.clone(), ..Painter::new() };
-    assert!(kept.rows == fresh.paint(drawing).rows);
-    kept
-}
-
 #[test]
 fn a_kept_backdrop_changes_no_pixel_of_a_frame() {
     let mut studio = Studio::new(Scene::built_in("harbour").unwrap());
     studio.apply(StageCommand::ToggleRace);
-    let (mut renderer, mut painter) = (FrameRenderer::new(SIDE_PX), Painter::new());
+    let (mut renderer, mut kept) = (FrameRenderer::new(SIDE_PX), executor());
     for n in 0..30 {
         match n {
             8 => _ = studio.apply(ViewCommand::ToggleTheme),
@@ -170,30 +155,9 @@ fn a_kept_backdrop_changes_no_pixel_of_a_frame() {
         studio.advance(if n % 3 == 0 { 0 } else { 40_000_000 });
         let input = egui::RawInput { time: Some(0.1 * f64::from(n)), ..Default::default() };
         let (_, output) = renderer.draw([640, 400], 1.0, input, &studio);
-        paint_twice(&mut painter, &output.drawing);
-    }
-}
-
-#[test]
-fn an_unchanged_quad_is_redrawn_when_its_texture_changes() {
-    let size_px = [100, 70];
-    let (mut renderer, mut painter) = (FrameRenderer::new(SIDE_PX), Painter::new());
-    let mut handle: Option<egui::TextureHandle> = None;
-    for n in 0..20 {
-        let shade = egui::ColorImage::filled([4, 4], egui::Color32::from_gray(40 * (n / 7)));
-        let layout = renderer.lay_out_with(size_px, 1.0, egui::RawInput::default(), |ui| {
-            let options = egui::TextureOptions::NEAREST;
-            match &mut handle {
-                Some(known) if n % 7 == 0 => known.set_partial([0, 0], shade.clone(), options),
-                Some(_) => {}
-                None => handle = Some(ui.ctx().load_texture("t", shade.clone(), options)),
-            }
-            let id = handle.as_ref().expect("it was loaded").id();
-            let uv = egui::Rect::from_min_max(egui::pos2(0.0, 0.0), egui::pos2(1.0, 1.0));
-            ui.painter().image(id, ui.max_rect(), uv, egui::Color32::WHITE);
-            None
-        });
-        let drawn = paint_twice(&mut painter, &renderer.paint(size_px, layout).drawing);
-        assert_eq!(drawn.at(50, 30)[0], 40 * (n / 7), "frame {n}");
+        let drawn = paint(&mut kept, &output.drawing);
+        let mut fresh = executor();
+        fresh.textures = kept.textures.clone();
+        assert!(drawn.rows == paint(&mut fresh, &output.drawing).rows, "frame {n}");
     }
 }

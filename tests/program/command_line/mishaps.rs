@@ -75,8 +75,8 @@ fn draw_again(folder: &Path) {
 #[test]
 fn running_out_of_memory_ends_in_a_sentence() {
     let folder = tempfile::tempdir().unwrap();
-    // Of address space. A frame of the largest size takes 256 MiB, and is kept three times.
-    let limited = format!("ulimit -v {}; exec \"$0\" \"$@\"", 600 << 10);
+    // Of address space. A frame of the largest size takes 256 MiB.
+    let limited = format!("ulimit -v {}; exec \"$0\" \"$@\"", 250 << 10);
     for (size, code) in [("64x36", 0), ("8192x8192", 1)] {
         let capture = format!("capture --scene spring --frames 1 --size {size} --out of-{size}");
         let mut command = Command::new("sh");
