@@ -5,13 +5,12 @@ use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 
-use super::drawing::RendererName;
 use super::error::{Error, PlaceOf};
-use super::experiment::{self, Experiment, ExperimentArgs, ThemeName, known_trace};
+use super::experiment::{self, Experiment, ExperimentArgs, known_trace};
 use super::frame_folder::{FolderPolicy, FrameFolder};
 use super::frame_names::MAX_FRAMES;
 use super::help::flowing;
-use super::id::{INSTRUMENT, SHAPE};
+use super::id::{INSTRUMENT, RENDERER, SHAPE, THEME};
 use super::output::{Destination, Output};
 use super::picture_format::{self, PictureFormat, Writing};
 use super::schedule::{FPS, MAX_FPS, Schedule, frames_in};
@@ -92,8 +91,8 @@ pub(super) struct CaptureArgs {
     scale: f32,
 
     /// The theme: dark or light [default: dark]
-    #[arg(long, value_name = "THEME", hide_possible_values = true)]
-    theme: Option<ThemeName>,
+    #[arg(long, value_name = "THEME", value_parser = THEME, hide_possible_values = true)]
+    theme: Option<Theme>,
 
     /// Panels around the stage: on or off
     ///
@@ -126,8 +125,9 @@ pub(super) struct CaptureArgs {
     /// The processor needs no driver, and draws the same frames on every machine, except for single pixels of letters.
     /// Gpu takes a graphics device, which may be a software driver. Auto takes a graphics card, or the processor if
     /// there is none.
-    #[arg(long, value_name = "WHAT", hide_possible_values = true, hide_short_help = true)]
-    renderer: Option<RendererName>,
+    #[arg(long, value_name = "WHAT", value_parser = RENDERER)]
+    #[arg(hide_possible_values = true, hide_short_help = true)]
+    renderer: Option<RendererChoice>,
 
     /// Ticks between two states in the manifest
     ///
@@ -207,11 +207,11 @@ pub(super) fn run(args: &CaptureArgs) -> Result<(), Error> {
         instrument: args.instrument,
         cloud,
         motion: true,
-        theme: args.theme.map(Theme::from).unwrap_or_default(),
+        theme: args.theme.unwrap_or_default(),
         mark_every: args
             .mark_every
             .unwrap_or_else(|| state_log::usual_stride(schedule.ticks(&studio))),
-        renderer: args.renderer.map_or(RendererChoice::Cpu, RendererChoice::from),
+        renderer: args.renderer.unwrap_or(RendererChoice::Cpu),
     };
     match format.writing {
         Writing::Folder => {
@@ -227,7 +227,7 @@ pub(super) fn run(args: &CaptureArgs) -> Result<(), Error> {
 impl CaptureArgs {
     /// Whether a graphics device may draw.
     pub(super) fn may_take_a_device(&self) -> bool {
-        matches!(self.renderer, Some(RendererName::Auto | RendererName::Gpu))
+        matches!(self.renderer, Some(RendererChoice::Auto | RendererChoice::Gpu))
     }
 }
 

@@ -2,8 +2,6 @@
 
 use std::io::Write;
 
-use clap::ValueEnum;
-
 use super::error::Error;
 use super::manifest::Adapter;
 use super::output::{Destination, Output};
@@ -18,24 +16,6 @@ use crate::view::{
 /// Maximum number of pixels of a whole capture, which is hours of drawing and about a hundred gigabytes of files. A
 /// larger request is probably a typing mistake.
 const MAX_PIXELS: u64 = 1_000_000_000_000;
-
-/// A [`RendererChoice`] on the command line.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(super) enum RendererName {
-    Auto,
-    Gpu,
-    Cpu,
-}
-
-impl From<RendererName> for RendererChoice {
-    fn from(name: RendererName) -> Self {
-        match name {
-            RendererName::Auto => RendererChoice::Auto,
-            RendererName::Gpu => RendererChoice::Gpu,
-            RendererName::Cpu => RendererChoice::Cpu,
-        }
-    }
-}
 
 impl CaptureSettings {
     /// Returns a renderer for the frames, or an error if the capture has too many pixels.

@@ -3,8 +3,8 @@
 use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 
+use clap::Args;
 use clap::builder::{PossibleValue, TypedValueParser};
-use clap::{Args, ValueEnum};
 
 use super::error::Error;
 use super::id::TRACE;
@@ -13,7 +13,6 @@ use super::own_method::METHOD_OR_FILE;
 use super::scene_file;
 use super::spring::SpringArgs;
 use super::tick_rate::TickRateArgs;
-use crate::look::palette::Theme;
 use crate::loops::{TRACES, TraceCard};
 use crate::run::race::{Mode, lanes_that_race};
 use crate::scene::{LaneSpec, MAX_SECONDS, SCENES, Scene, SceneGroup};
@@ -163,22 +162,6 @@ pub(super) fn known_trace(id: &str) -> Result<&'static TraceCard, String> {
 /// Whether an id looks like a file path.
 fn is_path(id: &str) -> bool {
     Path::new(id).extension().is_some() || id.contains(['/', '\\'])
-}
-
-/// A theme on the command line.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(super) enum ThemeName {
-    Dark,
-    Light,
-}
-
-impl From<ThemeName> for Theme {
-    fn from(name: ThemeName) -> Self {
-        match name {
-            ThemeName::Dark => Theme::Dark,
-            ThemeName::Light => Theme::Light,
-        }
-    }
 }
 
 /// Parses a duration in seconds.

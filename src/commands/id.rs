@@ -4,12 +4,16 @@ use std::ffi::OsStr;
 
 use clap::builder::{PossibleValue, TypedValueParser};
 
+#[cfg(feature = "view")]
+use crate::look::palette::Theme;
 use crate::loops::{POLICIES, PolicyCard, TRACES, TraceCard};
 use crate::measure::cloud::{CloudKind, CloudShape};
 use crate::scene::nearest;
 use crate::sim::integrators::{Family, METHODS, Method};
 use crate::studio::Instrument;
 use crate::tools::source_code::Language;
+#[cfg(feature = "view")]
+use crate::view::RendererChoice;
 
 /// The ids of one kind, with the value of each.
 #[derive(Clone, Copy)]
@@ -102,6 +106,16 @@ pub(super) const CLOUD: Id<CloudKind> =
 
 pub(super) const SHAPE: Id<CloudShape> =
     Id::new("shape", || CloudShape::ALL.map(|shape| (shape.id().into(), shape)).into());
+
+#[cfg(feature = "view")]
+pub(super) const THEME: Id<Theme> =
+    Id::new("theme", || vec![("dark".into(), Theme::Dark), ("light".into(), Theme::Light)]);
+
+#[cfg(feature = "view")]
+pub(super) const RENDERER: Id<RendererChoice> = Id::new("renderer", || {
+    use RendererChoice::{Auto, Cpu, Gpu};
+    [("auto", Auto), ("gpu", Gpu), ("cpu", Cpu)].map(|(id, choice)| (id.into(), choice)).into()
+});
 
 pub(super) const FAMILY: Id<Family> =
     Id::new("family", || Family::ALL.map(|(id, family)| (id.into(), family)).into());

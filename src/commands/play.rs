@@ -8,11 +8,11 @@ use std::sync::Arc;
 use annotate_snippets::Renderer;
 use clap::Args;
 
-use super::drawing::RendererName;
 use super::error::Error;
-use super::experiment::{self, Experiment, ExperimentArgs, ThemeName, known_trace};
+use super::experiment::{self, Experiment, ExperimentArgs, known_trace};
 use super::frame_folder::FrameFolder;
 use super::help::flowing;
+use super::id::{RENDERER, THEME};
 use super::interrupt::on_interrupt;
 use super::output::{Destination, Output};
 use super::schedule::{FPS, Schedule, frames_in};
@@ -78,14 +78,16 @@ pub(super) struct PlayArgs {
     /// The theme: dark or light
     ///
     /// The default is the one chosen last, else the system's.
-    #[arg(long, value_name = "THEME", hide_possible_values = true, hide_short_help = true)]
-    theme: Option<ThemeName>,
+    #[arg(long, value_name = "THEME", value_parser = THEME)]
+    #[arg(hide_possible_values = true, hide_short_help = true)]
+    theme: Option<Theme>,
 
     /// What draws: auto, gpu or cpu [default: auto]
     ///
     /// Auto takes a graphics card, or the processor if there is none.
-    #[arg(long, value_name = "WHAT", hide_possible_values = true, hide_short_help = true)]
-    renderer: Option<RendererName>,
+    #[arg(long, value_name = "WHAT", value_parser = RENDERER)]
+    #[arg(hide_possible_values = true, hide_short_help = true)]
+    renderer: Option<RendererChoice>,
 
     /// Trails do not fade, and the camera zooms out in steps
     #[arg(long, hide_short_help = true)]
@@ -95,7 +97,7 @@ pub(super) struct PlayArgs {
 impl PlayArgs {
     /// Whether a graphics device may draw.
     pub(super) fn may_take_a_device(&self) -> bool {
-        self.renderer != Some(RendererName::Cpu)
+        self.renderer != Some(RendererChoice::Cpu)
     }
 }
 
@@ -128,7 +130,7 @@ pub(super) fn run(args: &PlayArgs) -> Result<(), Error> {
     }
     let opens_at_work = args.race || args.loop_trace.is_some();
     let shown = SavedPreferences {
-        theme: args.theme.map(Theme::from).or(preferences.theme),
+        theme: args.theme.or(preferences.theme),
         measure: preferences.measure || opens_at_work,
         ..preferences.clone()
     };
@@ -152,7 +154,7 @@ pub(super) fn run(args: &PlayArgs) -> Result<(), Error> {
         seconds: args.seconds,
         tick: scene_file::tick_of(options.scene()).map(|tick| tick.min(last_tick(studio.scene()))),
         size: preferences.size,
-        renderer: args.renderer.map(RendererChoice::from).unwrap_or_default(),
+        renderer: args.renderer.unwrap_or_default(),
         on_interrupt: record.map(|_| on_interrupt as _),
     };
     let keep = unfinished.as_ref().map(UnfinishedRecording::keeper);
@@ -223,9 +225,9 @@ fn without_display(
         instrument: None,
         cloud: None,
         motion: !args.reduced_motion,
-        theme: args.theme.map(Theme::from).unwrap_or_default(),
+        theme: args.theme.unwrap_or_default(),
         mark_every: state_log::usual_stride(schedule.ticks(&studio)),
-        renderer: args.renderer.map_or(RendererChoice::Cpu, RendererChoice::from),
+        renderer: args.renderer.unwrap_or(RendererChoice::Cpu),
     };
     // The error of a missing device comes before frames are promised.
     capture.renderer()?;
