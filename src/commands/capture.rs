@@ -217,7 +217,8 @@ pub(super) fn run(args: &CaptureArgs) -> Result<(), Error> {
         Writing::Folder => {
             let existing = if args.force { FolderPolicy::Replace } else { FolderPolicy::Refuse };
             let folder = FrameFolder::inspect(&args.out, existing, PlaceOf::Option("--out"))?;
-            clip::record(&experiment, studio, capture, folder).map(drop)
+            let renderer = capture.renderer()?;
+            clip::record(&experiment, studio, capture, renderer, folder).map(drop)
         }
         Writing::Sheet => sheet::draw(&experiment, &studio, capture, open(args)?),
         Writing::Movie(begin) => movie::record(studio, capture, begin, open(args)?),

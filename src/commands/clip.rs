@@ -13,18 +13,18 @@ use super::settings::CaptureSettings;
 use super::state_log::{self, StateLog};
 use super::terminal::{print_status, report_left_alone};
 use crate::studio::Studio;
-use crate::view::{PreparedFrame, png};
+use crate::view::{OffscreenRenderer, PreparedFrame, png};
 
 /// Draws the run of `studio` into `folder`, and reports the result on standard error. The studio must be at the start
-/// of `experiment`. Returns the studio at the end of the run.
+/// of `experiment`, and the renderer must be one of `capture`. Returns the studio at the end of the run.
 pub(super) fn record(
     experiment: &Experiment,
     studio: Studio,
     capture: CaptureSettings,
+    mut renderer: OffscreenRenderer,
     mut folder: FrameFolder,
 ) -> Result<Studio, Error> {
     let CaptureSettings { schedule, size_px, .. } = capture;
-    let mut renderer = capture.renderer()?;
     let adapter = adapter(&renderer);
     // Signals are watched before the folder gets its first entry, because an unhandled Ctrl-C would leave that entry
     // behind.

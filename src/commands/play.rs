@@ -230,7 +230,7 @@ fn without_display(
         renderer: args.renderer.unwrap_or(RendererChoice::Cpu),
     };
     // The error of a missing device comes before frames are promised.
-    capture.renderer()?;
+    let renderer = capture.renderer()?;
     // winit names no library, and no display.
     let named = ["WAYLAND_DISPLAY", "DISPLAY"].map(|name| match env::var(name) {
         Ok(display) if !display.is_empty() => format!("; {name} is {display}"),
@@ -246,7 +246,7 @@ fn without_display(
         folder.path().display(),
     ));
     let last = args.seconds.map(|seconds| studio.race().nearest_tick(seconds));
-    let mut studio = clip::record(experiment, studio, capture, folder)?;
+    let mut studio = clip::record(experiment, studio, capture, renderer, folder)?;
     // The last frame may be before the end of the run.
     while last.is_some_and(|last| studio.race().tick() < last) {
         studio.tick();

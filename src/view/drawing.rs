@@ -36,15 +36,16 @@ impl Drawing {
             let transform = &self.transforms[draw.place as usize];
             let [left, top, width_px, height_px] = draw.scissor_px.map(|px| px as f32);
             let scissor = Rect::from_min_size(pos2(left, top), vec2(width_px, height_px));
-            let letters = self.triangles.corners(&draw.indices);
-            for corners in letters.filter(|corners| corners.iter().any(|it| it.uv != WHITE_UV)) {
+            let visible_part = |corners: [&Vertex; 3]| {
                 let at_px = corners.map(|corner| Pos2::from(transform.px(corner.pos.into())));
-                let Rect { min, max } = Rect::from_points(&at_px).intersect(scissor);
-                if min.x < max.x {
-                    for row in min.y as usize..max.y.ceil() as usize {
-                        let columns = min.x as usize..max.x.ceil() as usize;
-                        has_letters[row * width..][columns].fill(true);
-                    }
+                Rect::from_points(&at_px).intersect(scissor)
+            };
+            let triangles = self.triangles.corners(&draw.indices);
+            let letters = triangles.filter(|corners| corners.iter().any(|it| it.uv != WHITE_UV));
+            for Rect { min, max } in letters.map(visible_part).filter(Rect::is_positive) {
+                for row in min.y as usize..max.y.ceil() as usize {
+                    let columns = min.x as usize..max.x.ceil() as usize;
+                    has_letters[row * width..][columns].fill(true);
                 }
             }
         }

@@ -39,8 +39,8 @@ pub(crate) struct Desk {
 }
 
 impl Desk {
-    /// Starts the program with these words, and the focus on its window. Without a display server, or for `--renderer gpu`
-    /// a driver, it writes that `test` is skipped.
+    /// Starts the program with these words, and the focus on its window. Without a display server, or without
+    /// a driver under `--renderer gpu`, it writes that `test` is skipped.
     #[track_caller]
     pub(crate) fn open(test: &str, arguments: &str) -> Option<Self> {
         Self::open_with(test, arguments, &[])

@@ -167,7 +167,10 @@ pub(super) fn bless(dir: &Path) -> Result<(), Error> {
     }
     let folder = FrameFolder::inspect(dir, FolderPolicy::Bless, PlaceOf::Blessed)?;
     let Rerun { experiment, capture, .. } = read_run(dir)?;
-    let drawn = record(&experiment, experiment.studio(), capture, folder);
+    let studio = experiment.studio();
+    let drawn = capture
+        .renderer()
+        .and_then(|renderer| record(&experiment, studio, capture, renderer, folder));
     drawn.map(drop).map_err(|error| error.within("not blessed"))
 }
 

@@ -6,7 +6,7 @@ use crate::scene::{SCENES, Scene};
 use crate::studio::{StageCommand, Studio};
 use crate::view::drawing::{Draw, Mesh, Place};
 use crate::view::testing::{Pixels, executor, gpu_or_skip, paint, paint_on};
-use crate::view::{FrameRenderer, GpuExecutor, PixelDifference};
+use crate::view::{FrameRenderer, GpuExecutor, PixelDifference, PixelLimits};
 
 fn one_place(size_px: [u32; 2]) -> ScreenTransform {
     let [width, height] = size_px.map(|side| side as f32);
@@ -243,6 +243,8 @@ fn processor_and_device_draw_every_scene_almost_alike() {
             let one = paint(&mut executor, &drawing);
             let other = paint_on(&gpu, &mut on_device, &drawing);
             let difference = PixelDifference::between(&one.rows, &other.rows, |_| true);
+            let is_alike = PixelLimits::OF_EXECUTORS.allow(&difference);
+            assert!(is_alike, "{}: worst {}", scene.name, difference.worst());
             let pixels = one.rows.len() / 4;
             for (difference_by, most) in [(1, pixels / 10_000), (2, pixels / 100_000)] {
                 let beyond = difference.beyond(difference_by);
