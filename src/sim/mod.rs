@@ -34,6 +34,8 @@ pub mod stability;
 mod state;
 mod stepper;
 mod system;
+#[cfg(feature = "lab")]
+pub(crate) mod text;
 mod tick_rate;
 mod vec_system;
 
