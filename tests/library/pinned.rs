@@ -159,8 +159,9 @@ fn the_manual_names_the_glam_and_libm_versions_with_promised_bits() {
     let lock = include_str!("../../Cargo.lock");
     let chapter = regatta::manual::chapter("stable").expect("a chapter").text;
     for (name, version) in [("glam", "0.34.3"), ("libm", "0.2.16")] {
-        let asked = manifest.lines().find_map(|line| line.strip_prefix(&format!("{name} = \"")));
-        let asked = asked.expect("a dependency").trim_end_matches('"');
+        let of_name = |line: &'static str| line.strip_prefix(name)?.strip_prefix(" = ");
+        let asked = manifest.lines().find_map(of_name).expect("a dependency");
+        let asked = asked.trim_start_matches("{ version = ").trim_start_matches('"');
         assert!(asked.starts_with(|c: char| c.is_ascii_digit()), "{name} is asked for as {asked}");
         assert!(lock.contains(&format!("name = \"{name}\"\nversion = \"{version}\"")), "{name}");
         assert!(chapter.contains(&format!("`{name}` {version}")), "{name}");
