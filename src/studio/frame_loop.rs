@@ -139,9 +139,14 @@ impl FrameLoop {
         if self.studio.running() || !self.asked.is_empty() {
             return 0;
         }
-        let notice = self.studio.viewer.notice.as_ref().map(|notice| notice.left_ns());
-        let futures = Some(self.studio.viewer.futures_left_ns).filter(|&left| left > 0);
-        notice.into_iter().chain(futures).min().map_or(u64::MAX, i64::unsigned_abs)
+        let viewer = &self.studio.viewer;
+        let notices = [&viewer.notice, &viewer.quit_question].into_iter().flatten();
+        let futures = Some(viewer.futures_left_ns).filter(|&left| left > 0);
+        notices
+            .map(|notice| notice.left_ns())
+            .chain(futures)
+            .min()
+            .map_or(u64::MAX, i64::unsigned_abs)
     }
 
     /// Notes that the frame could not be drawn. Until the first frame of a scene is drawn, no time passes in its run.
