@@ -77,13 +77,10 @@ pub(super) fn escape(studio: &mut Studio) -> Option<DriverRequest> {
     }
     if !preferences.is_page {
         let is_saved = studio.deck.edits == studio.deck.saved_edits || preferences.is_recorded;
-        studio.viewer.quit_question = Some(match is_saved {
-            true => "Quit Regatta? `Enter` quits, `Esc` stays.".into(),
-            false => {
-                "Quit Regatta? This run is not saved: `F5` saves it. `Enter` quits, `Esc` stays."
-                    .into()
-            }
-        });
+        let unsaved = (!is_saved).then_some("This run is not saved: `F5` saves it.");
+        let lines =
+            ["Quit Regatta?"].into_iter().chain(unsaved).chain(["`Enter` quits, `Esc` stays."]);
+        studio.viewer.quit_question = Some(lines.map(str::to_owned).collect::<Vec<_>>().into());
     }
     None
 }

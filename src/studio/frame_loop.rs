@@ -281,4 +281,19 @@ mod tests {
         assert!((1_000_000_000..60_000_000_000).contains(&due_ns), "{due_ns} ns");
         assert_eq!(frame(&mut frames, 0, vec![pause]), 0, "a command waits");
     }
+
+    #[test]
+    fn a_notice_and_a_question_stay_after_a_long_pause_before_their_key() {
+        let (mut frames, now_ns) = begun("spring");
+        frames.queue([ViewCommand::TogglePause.into()]);
+        frame(&mut frames, now_ns, Vec::new());
+        let later_ns = 600_000_000_000;
+        frames.queue([ViewCommand::UsualScale.into(), ViewCommand::Escape.into()]);
+        frame(&mut frames, later_ns, Vec::new());
+        assert!(frames.studio.viewer.notice.is_some());
+        assert!(frames.studio.viewer.quit_question().is_some());
+        frame(&mut frames, later_ns + 60_000_000_000, Vec::new());
+        assert!(frames.studio.viewer.notice.is_none());
+        assert!(frames.studio.viewer.quit_question().is_none());
+    }
 }

@@ -276,7 +276,7 @@ impl Viewer {
         self.findings.as_ref()?.map.as_ref()
     }
 
-    /// Returns the question whether to quit, while it is shown. Keys stand between backticks.
+    /// Returns the question whether to quit, while it is shown. Its parts are lines, with keys between backticks.
     pub fn quit_question(&self) -> Option<&Notice> {
         self.quit_question.as_ref()
     }

@@ -1,6 +1,6 @@
 //! Small things over the stage: the button that fits its view, and the question before the program quits.
 
-use egui::{Align2, Area, Button, Frame, Id, LayerId, Margin, Order, Rect, Stroke, Ui, vec2};
+use egui::{Align2, Area, Button, Id, LayerId, Order, Rect, Stroke, Ui, UiBuilder, pos2, vec2};
 
 use super::{breakpoints, keycap};
 use crate::studio::{Command, Studio, ViewCommand, ZoomPan};
@@ -9,8 +9,9 @@ use crate::view::theme::palette;
 /// Distance (points) of the button from the right and bottom edges of the stage: beside the sign of a pause, and above
 /// the scale bar.
 const ASIDE: [f32; 2] = [58.0, 36.0];
-/// Padding of the question, and its least distance from the sides of the stage, in points.
-const PADDING: i8 = 16;
+/// Padding of the question, the gap between its lines, and its least distance from the sides of the stage, in points.
+const PADDING: f32 = 18.0;
+const GAP: f32 = 6.0;
 const BESIDE: f32 = 12.0;
 
 /// Shows a button that fits the view, unless every body's view is the automatic one.
@@ -47,28 +48,30 @@ pub(super) fn quit_question(ui: &Ui, studio: &Studio, stage: Rect) {
     let layer = LayerId::new(Order::Middle, Id::unique("behind the question"));
     let shade = palette.background.gamma_multiply(0.6);
     ui.ctx().layer_painter(layer).rect_filled(stage, 0.0, shade);
-    let area = Area::new(Id::unique("quit")).order(Order::Foreground).interactable(false);
-    area.pivot(Align2::CENTER_CENTER).fixed_pos(stage.center()).show(ui.ctx(), |ui| {
-        let frame = Frame::new().fill(palette.panel).corner_radius(8.0);
-        let frame =
-            frame.inner_margin(Margin::same(PADDING)).stroke(Stroke::new(2.0, palette.accent));
-        frame.show(ui, |ui| {
-            let most = (stage.width() - 2.0 * (BESIDE + f32::from(PADDING))).max(0.0);
-            let width = keycap::line_width(ui, question);
-            if width <= most {
-                keycap::line(ui, question, width, palette.text);
-            } else {
-                ui.set_max_width(most);
-                keycap::paragraph(ui, question, palette.text);
-            }
-        });
-    });
+    let widths = question.parts().iter().map(|line| keycap::line_width(ui, line));
+    let most = stage.width() - 2.0 * (BESIDE + PADDING);
+    let width = widths.clone().fold(0.0, f32::max).min(most).max(0.0);
+    let lines = question.parts().len() as f32;
+    let size = vec2(width, lines * (keycap::HEIGHT + GAP) - GAP);
+    let inside = Rect::from_center_size(stage.center(), size);
+    // An area would be invisible in its first frame, which may be the only one of a pause.
+    let id = Id::unique("quit");
+    let builder = UiBuilder::new().layer_id(LayerId::new(Order::Foreground, id)).max_rect(inside);
+    let mut ui = Ui::new(ui.ctx().clone(), id, builder);
+    let stroke = Stroke::new(2.0, palette.accent);
+    let plate = inside.expand(PADDING);
+    ui.painter().rect(plate, 8.0, palette.panel, stroke, egui::StrokeKind::Inside);
+    for (row, (line, of)) in question.parts().iter().zip(widths).enumerate() {
+        let of = of.min(width);
+        let top = inside.top() + row as f32 * (keycap::HEIGHT + GAP);
+        let at = pos2(inside.center().x - of / 2.0, top);
+        let row = UiBuilder::new().max_rect(Rect::from_min_size(at, vec2(of, keycap::HEIGHT)));
+        keycap::line(&mut ui.new_child(row), line, of + 1.0, palette.text);
+    }
 }
 
 #[cfg(test)]
 mod tests {
-    use egui::pos2;
-
     use super::*;
     use crate::scene::Scene;
     use crate::view::testing::TestWindow;
@@ -95,18 +98,18 @@ mod tests {
 
     #[test]
     fn the_question_is_whole_on_the_stage_of_any_window() {
-        for size in [[1280.0, 720.0], [800.0, 520.0], [320.0, 480.0], [200.0, 140.0]] {
+        for size in [[1280.0, 720.0], [800.0, 520.0], [360.0, 480.0], [300.0, 140.0]] {
             for measure in [false, true] {
                 let mut studio = Studio::new(Scene::built_in("harbour").unwrap());
                 studio.viewer.preferences.display.measure = measure;
                 studio.tick();
                 studio.apply(crate::studio::StageCommand::Pick(1));
-                studio.apply(ViewCommand::Escape);
                 let mut window = TestWindow::new(size);
-                (0..3).for_each(|_| drop(window.panels(&studio, Vec::new())));
+                window.panels(&studio, Vec::new());
+                studio.apply(ViewCommand::Escape);
                 let shown = window.panels(&studio, Vec::new()).1;
                 let screen = Rect::from_min_size(pos2(0.0, 0.0), window.size);
-                for words in ["Quit Regatta? This run", "Enter", "Esc", "stays"] {
+                for words in ["Quit Regatta?", "This run is not saved", "Enter", "Esc", "stays"] {
                     let is_there = |(rect, text): &(Rect, String)| {
                         text.contains(words) && screen.contains_rect(*rect)
                     };
