@@ -142,7 +142,13 @@ pub(super) fn halts<'h>(
     let of_bodies = of_bodies.map(|words| (words, palette.bad));
     for ((words, colour), y) in of_bodies.into_iter().chain(of_truth).zip([12.0, 27.0]) {
         let at = [rect.min[0] + 9.0 + inset(rect), rect.max[1] - y];
-        picture.labels.push(text(palette, at, Align::Left, 11.0, colour, words));
+        let label = text(palette, at, Align::Left, 11.0, colour, words);
+        let [left, right] = span(&label);
+        // A net may hang down to here.
+        let (min, max) = ([left - 4.0, at[1] - 7.5], [right + 4.0, at[1] + 7.5]);
+        let below = [min, [max[0], min[1]], max, [min[0], max[1]]];
+        picture.pen(rect).fill(&below, fade(palette.sea[1], 0.85));
+        picture.labels.push(label);
     }
 }
 
@@ -184,6 +190,10 @@ pub(super) fn head(
     entrant: &Entrant,
 ) {
     let Some([x, y]) = caption_place(rect) else { return };
+    // In a low cell, the words would lie over the body.
+    if rect.max[1] - rect.min[1] < breakpoints::SCALE_BAR {
+        return;
+    }
     let body = &entrant.lane.bodies()[index];
     let name = moment.studio.scene().bodies[index].name.chars().count();
     let left = x + NAME_LETTER * name as f32 + 14.0;
@@ -253,7 +263,7 @@ pub(super) fn speed(
     });
     let Some(bow) = bow else { return };
     let [x, y] = camera.points(outline.at + bow);
-    let words = format!("{} {}/s", significant(v[0], 2), camera.unit);
+    let words = format!("{} {}/s", significant(v[0], 3), camera.unit);
     let (at, palette) = ([x + 14.0, y - 12.0], moment.palette);
     let label = text(palette, at, Align::Left, 14.0, palette.text, words);
     let [left, right] = span(&label);
@@ -315,6 +325,12 @@ pub(super) fn futures(picture: &mut Picture, rect: Rect, studio: &Studio, palett
 fn caption_place(rect: Rect) -> Option<[f32; 2]> {
     let fits = (0..2).all(|axis| rect.max[axis] - rect.min[axis] >= breakpoints::CAPTION[axis]);
     fits.then_some([rect.min[0] + 9.0 + inset(rect), rect.min[1] + 13.0])
+}
+
+/// Height below which marks keep clear of the words at the head of a cell.
+pub(super) fn foot_of_head(rect: Rect) -> f32 {
+    let head = caption_place(rect).map_or(4.0, |_| CHIP);
+    rect.min[1] + head
 }
 
 /// The verdict on the method, on one line.
@@ -400,7 +416,8 @@ pub(super) fn write_comparison(
     }
 }
 
-/// Names a ghost in its colour, `beside` points from its middle: below it at a free side, or else above it.
+/// Names a ghost in its colour, `beside` points from its middle: below it at a free side, or else above it. On a chart
+/// recorder, trails hang below it, so that above comes first.
 pub(super) fn ghost_name(
     picture: &mut Picture,
     camera: &Camera,
@@ -418,9 +435,15 @@ pub(super) fn ghost_name(
     if x + beside + width > max[0] {
         sides.reverse();
     }
-    let [below, above] = [(y + beside + 6.0).min(max[1] - 8.0), y - beside - 6.0];
+    let is_recorded = camera.paper > 0.0;
+    let up = if is_recorded { 0.7 * beside + 8.0 } else { beside + 6.0 };
+    let [below, above] = [(y + beside + 6.0).min(max[1] - 8.0), y - up];
     let is_above_free = above > min[1] + CHIP;
-    for ((way, align), at_y) in [(sides[0], below), (sides[0], above), (sides[1], below)] {
+    let mut places = [(sides[0], below), (sides[0], above), (sides[1], below)];
+    if is_recorded {
+        places.swap(0, 1);
+    }
+    for ((way, align), at_y) in places {
         let at = [x + way * (beside + 8.0), at_y];
         let label = text(palette, at, align, 12.0, colour, name.to_owned());
         let [left, right] = span(&label);

@@ -7,6 +7,7 @@ use glam::DVec2;
 use super::compared::Compared;
 use super::display::{Display, View};
 use super::notices::Notices;
+use super::run_before::RunBefore;
 use super::scene_list::SceneList;
 use crate::measure::cloud::MAX_CLOUDS;
 use crate::run::past::Past;
@@ -43,6 +44,8 @@ pub struct Deck {
     pub(super) saved_edits: u64,
     /// The recording to which the run was compared, if the two differ.
     pub(super) compared: Option<Box<Compared>>,
+    /// The run before the last restart, if it had another tick rate or method.
+    pub(super) run_before: Option<Box<RunBefore>>,
     /// The run that the person left for the guide, while a stop of the guide is on the stage.
     pub(super) left: Option<Box<LeftRun>>,
 }
@@ -75,6 +78,7 @@ impl Deck {
             edits: 0,
             saved_edits: 0,
             compared: None,
+            run_before: None,
             left: None,
         }
     }
@@ -92,6 +96,11 @@ impl Deck {
     /// Returns the run with its past and its future.
     pub fn run(&self) -> &Run {
         &self.run
+    }
+
+    /// Returns the run before the last restart, if it had another tick rate or method.
+    pub fn run_before(&self) -> Option<&RunBefore> {
+        self.run_before.as_deref()
     }
 
     /// Returns the lanes and the truth.

@@ -128,6 +128,11 @@ macro_rules! keys {
 /// Number of methods that digits pick: with the keys 1 to 9, and 0.
 pub const DIGITS: usize = 10;
 
+/// Returns the digit of the key that picks the entry with this index, one of the first [`DIGITS`].
+pub fn digit_of(index: usize) -> usize {
+    (index + 1) % DIGITS
+}
+
 /// Every key and its command.
 pub static KEYS: &[Binding] = keys! {
     once "1 … 9, 0" "solo: this method takes over at once; race, loop lab: select that lane":

@@ -48,6 +48,7 @@ mod pace;
 mod pulling;
 mod restarting;
 mod resting;
+mod run_before;
 mod saved_preferences;
 mod scene_list;
 mod spring_field;
@@ -75,7 +76,7 @@ pub use frame_loop::{FrameLoop, ToDo};
 pub use gesture::{GESTURES, Gesture};
 pub use instrument::{INSTRUMENTS, Instrument, InstrumentCard, InstrumentGroup};
 pub use joint::{SpringJoint, joint_code};
-pub use key::{Binding, DIGITS, KEYS, Key, command_for};
+pub use key::{Binding, DIGITS, KEYS, Key, command_for, digit_of};
 pub use looping::{
     accept_loop, loop_lab_refusal, loop_request, open_loop_lab_on, open_traces, run_loops,
 };
@@ -87,6 +88,7 @@ pub use opening::{
     show_clouds_of_scene, show_comparison, show_mistakes,
 };
 pub use pace::{LiveFrame, LiveLoop, PaceMeter};
+pub use run_before::RunBefore;
 pub use saved_preferences::SavedPreferences;
 pub use scene_list::SceneList;
 pub use spring_field::SpringField;

@@ -279,10 +279,11 @@ impl Touch {
                 if time - since >= INVITED_S {
                     self.invited_s = Some(time);
                 } else if time - since < INVITES_S {
-                    let at = middle + vec2(0.0, radius + 12.0);
+                    // The name of the ghost is to the right.
+                    let at = middle + vec2(-8.0, radius + 12.0);
                     let font = FontId::proportional(TYPE);
                     let colour = palette(ui).accent;
-                    painter.text(at, Align2::CENTER_CENTER, "drag me", font, colour);
+                    painter.text(at, Align2::RIGHT_CENTER, "drag me", font, colour);
                 }
                 CursorIcon::Grab
             }
