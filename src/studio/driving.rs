@@ -11,7 +11,7 @@ use crate::look::{Framing, Look};
 use crate::loops::Due;
 use crate::run::past::History;
 use crate::run::race::{Interpolation, LaneBody, Mode, Observer};
-use crate::sim::number::significant;
+use crate::sim::number::{round, significant};
 
 /// Fastest zoom that people can follow, in powers of ten per second of real time.
 const MAX_ZOOM: f64 = 6.0;
@@ -166,7 +166,7 @@ pub fn pace_in_words(deck: &Deck, viewer: &Viewer) -> Option<String> {
     let set = (percent != 100).then(|| match percent {
         25 => "at ¼× speed".into(),
         50 => "at ½× speed".into(),
-        _ => format!("at {}× speed", significant(f64::from(percent) / 100.0, 3)),
+        _ => format!("at {}× speed", round(f64::from(percent) / 100.0, 3)),
     });
     set.or_else(|| slowed_in_words(deck, viewer))
 }

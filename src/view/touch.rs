@@ -17,8 +17,9 @@ const DRAG: f32 = 3.0;
 /// The time over which a drag's velocity is measured, in seconds: long enough for several frames, short enough for a
 /// hand that stopped to count as at rest.
 const MEMORY_S: f64 = 0.1;
-/// Time for which a moving body can also be taken where it was, in seconds: as late as people press.
-const LATE_S: f64 = 0.2;
+/// Time for which a moving body can also be taken where it was, in seconds: as late as people press,
+/// and a frame.
+const LATE_S: f64 = 0.22;
 /// Distance from a body's edge to the ring that marks it as draggable, in points.
 const RING: f32 = 3.0;
 /// Duration of a body's invitation to drag it, and time from one invitation to the next, in seconds.

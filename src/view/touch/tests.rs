@@ -243,7 +243,7 @@ fn a_click_on_an_overlaid_body_brings_its_lane_to_the_front() {
 fn the_wheel_zooms_a_drag_of_the_sea_pans_and_a_double_click_fits() {
     let mut table = Table::new("pendulum");
     table.studio.apply(ViewCommand::TogglePause);
-    let at = STAGE.center() + vec2(-90.0, 60.0);
+    let at = table.body() + vec2(-60.0, -40.0);
     let under = |table: &Table, at: Pos2| table.picture().cells[0].metres((at - STAGE.min).into());
     let before = under(&table, at);
     table.frame(vec![
@@ -307,17 +307,12 @@ fn a_press_where_the_mass_was_up_to_a_fifth_of_a_second_ago_takes_it() {
             let view = table.studio.view().clone();
             table.press(aimed);
             let is_far = table.body().distance(aimed) > 80.0;
-            if late <= 4 {
-                assert_eq!(
-                    table.held().map(|held| held.q.to_vec()),
-                    Some(q),
-                    "{scene}, {late} frames"
-                );
+            if late <= 3 {
+                let held = table.held().unwrap_or_else(|| panic!("{scene}, {late} frames"));
+                let is_near = held.q.iter().zip(&q).all(|(held, q)| (held - q).abs() < 1e-4);
+                assert!(is_near, "{scene}, {late} frames: {:?}, {q:?}", held.q);
             } else {
-                assert!(
-                    table.held().is_none() || !is_far,
-                    "{scene}: half a second is another place"
-                );
+                assert!(table.held().is_none() || !is_far, "{scene}: it is too late");
             }
             table.release(aimed, false);
             assert_eq!(*table.studio.view(), view);
