@@ -435,7 +435,7 @@ pub(super) fn ghost_name(
     if x + beside + width > max[0] {
         sides.reverse();
     }
-    let is_recorded = camera.paper > 0.0;
+    let is_recorded = camera.quay_m != 0.0;
     let up = if is_recorded { 0.7 * beside + 8.0 } else { beside + 6.0 };
     let [below, above] = [(y + beside + 6.0).min(max[1] - 8.0), y - up];
     let is_above_free = above > min[1] + CHIP;

@@ -1,5 +1,5 @@
-//! The ruler of the universe. When a stage zooms out after a runaway body, familiar things of one kind appear on the
-//! water at its scale, as many as the swing is wide, and a sentence counts them.
+//! The ruler of the universe. When a stage zooms out after a runaway body, familiar things appear on the water at its
+//! scale. All are of one kind, as many as the swing is wide, and a sentence counts them.
 
 use glam::DVec2;
 
