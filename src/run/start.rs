@@ -106,6 +106,14 @@ impl StartSettings {
         Session::new(Arc::clone(&self.scene), race)
     }
 
+    /// Whether both settings have the same length, parameters and methods.
+    pub(crate) fn has_same_values(&self, other: &Self) -> bool {
+        let bodies = self.scene.bodies.iter().zip(&other.scene.bodies);
+        self.scene.seconds == other.scene.seconds
+            && bodies.clone().all(|(own, other)| own.values == other.values)
+            && self.list == other.list
+    }
+
     /// Sets the scene's length (s), if the length is in the allowed range. Returns whether the length changed.
     pub(crate) fn set_seconds(&mut self, seconds: f64) -> bool {
         let changes =

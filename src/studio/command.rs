@@ -143,7 +143,8 @@ pub enum ViewCommand {
     TogglePause,
     /// Reports that the pointer's button goes down or up. Undo treats all edits while the button is down as one.
     PointerDown(bool),
-    /// Holds the tick rate until the pointer's button goes up. Meanwhile time waits, and the stage shows futures.
+    /// Holds the tick rate, or another value of the run, until the pointer's button goes up. Meanwhile time waits, and
+    /// the stage shows futures.
     HoldTickRate,
     /// Opens a field for the path of a scene file.
     AskForPath,

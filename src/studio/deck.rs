@@ -27,7 +27,7 @@ pub struct Deck {
     pub(super) held: Option<HeldBody>,
     /// The body that the person pulls while time runs.
     pub(super) pulled: Option<PulledBody>,
-    /// Whether the person holds the tick rate.
+    /// Whether the person holds the tick rate or another value of the run.
     pub(super) tick_rate_is_held: bool,
     /// The lane that is selected in a race. It stays selected through switches of its method.
     pub(super) selected: LaneId,
@@ -173,7 +173,7 @@ impl Deck {
         self.running && self.held.is_none() && !self.tick_rate_is_held
     }
 
-    /// Whether the person holds the tick rate, according to the last [`ViewCommand::HoldTickRate`](super::ViewCommand).
+    /// Whether the person holds the tick rate or another value of the run, according to the last [`ViewCommand::HoldTickRate`](super::ViewCommand).
     pub fn is_tick_rate_held(&self) -> bool {
         self.tick_rate_is_held
     }
