@@ -3,7 +3,7 @@
 
 use std::sync::Arc;
 
-use super::race::{Mode, PerformedAction, Race, lanes_that_race};
+use super::race::{Mode, PerformedAction, Race, Switch, lanes_that_race};
 use super::{Menu, MenuIndex, Session};
 use crate::scene::{
     Action, LaneId, LaneSpec, MAX_LANES, MAX_SECONDS, MIN_SECONDS, Scene, SceneBody, edited_values,
@@ -146,12 +146,15 @@ impl StartSettings {
             }
             _ => {}
         }
-        if done.switch.is_some() {
-            self.list = menu.specs().to_vec();
-            if race.mode() == Mode::Race {
-                let entries = entries(race, menu);
-                self.lanes.iter_mut().zip(entries).for_each(|(lane, entry)| *lane = entry);
-            }
+        let Some(Switch { index, spec, .. }) = done.switch else { return };
+        self.list = menu.specs().to_vec();
+        if race.mode() == Mode::Race
+            && let Some(lane) = self.lanes.get_mut(index)
+            && self.list[*lane] != spec
+        {
+            let known = self.list.iter().position(|listed| *listed == spec);
+            *lane = known.unwrap_or(self.list.len());
+            self.list.extend(known.is_none().then_some(spec));
         }
     }
 }

@@ -426,8 +426,7 @@ impl BodyCell<'_> {
         if index == 0 {
             captions::write_comparison(picture, camera.rect, compared.lines(), palette);
         }
-        let Some(body) = compared.body(deck.scene(), &front.spec, index) else { return };
-        let (q, _) = shown_state(deck, &moment.studio.viewer, body);
+        let Some((body, q)) = compared.body(deck.scene(), &front.spec, index) else { return };
         let outline = Look::of(body).outline(moment.t, &q);
         let style = LaneStyle { colour: palette.accent, dash: SOLID, fill: 0.0 };
         OutlineView { outline: &outline, camera, palette }.draw_behind(picture, style);

@@ -160,6 +160,7 @@ pub(super) fn step_by(deck: &mut Deck, viewer: &mut Viewer, ticks: i64) {
     while deck.race().tick() < tick {
         make_tick(deck, viewer, &mut ());
     }
+    deck.follow_with_compared(deck.race().t());
     deck.run.show_present();
 }
 

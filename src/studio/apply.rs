@@ -132,6 +132,7 @@ impl Studio {
             ViewCommand::SpringTickHz(tick_hz) => {
                 self.viewer.dialog = Some(Dialog::Spring { tick_hz });
             }
+            ViewCommand::CloseComparison => _ = self.deck.close_comparison(),
             ViewCommand::CloseDialog => self.viewer.dialog = None,
             ViewCommand::ToggleGuide => toggle_guide(&mut self.deck, &mut self.viewer),
             ViewCommand::GoToStop(index) => go_to_stop(&mut self.deck, &mut self.viewer, index),
@@ -164,6 +165,7 @@ impl Studio {
             || self.close_guide()
             || take(&mut self.viewer.preferences.display.enlarged)
             || take(&mut self.viewer.preferences.display.inspector)
+            || self.deck.close_comparison()
             || leave_loop_lab(self)
     }
 

@@ -158,6 +158,8 @@ pub enum ViewCommand {
     DescribeSpring(MySpring),
     /// Sets the tick rate (Hz) for the spring of the dialog.
     SpringTickHz(TickRate),
+    /// Ends the comparison with a recording.
+    CloseComparison,
     /// Closes the open dialog.
     CloseDialog,
     /// Puts the instruments, the table and the timeline around the stage, or lets the stage fill the window.

@@ -101,6 +101,11 @@ pub(super) fn show(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) {
             commands.push(Command::View(ViewCommand::AskForRun));
             ui.close();
         }
+        let is_compared = studio.deck.compared().is_some();
+        if is_compared && ui.button("× End the comparison (Esc)").clicked() {
+            commands.push(Command::View(ViewCommand::CloseComparison));
+            ui.close();
+        }
     });
     tooltip(ui, response, &track, (&context, &groups));
 }

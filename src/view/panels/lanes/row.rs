@@ -6,7 +6,7 @@ use crate::run::past::Peaks;
 use crate::run::race::{Entrant, LaneBody, Mode};
 use crate::run::{METRICS, MenuIndex, Metric, energy_gained_j, energy_gained_percent, energy_j};
 use crate::scene::LaneSpec;
-use crate::stage::number::significant;
+use crate::stage::number::{round, significant};
 use crate::studio::{Studio, shown_state};
 use crate::view::panels::verdict::VerdictText;
 
@@ -90,6 +90,16 @@ impl<'a> Row<'a> {
     pub(super) fn method_name(&self) -> String {
         let within = self.spec.tolerance.map(|tolerance| format!(" {tolerance:e}"));
         self.spec.name_with_substeps(self.studio.entries()) + &within.unwrap_or_default()
+    }
+
+    /// Returns the digits of both methods for a lane of a race that was switched, or else the method's name.
+    pub(super) fn head(&self) -> String {
+        match self.studio.deck.switched(self.entry) {
+            Some((to, at_s)) => {
+                format!("{} → {} (switched at {} s)", self.entry + 1, to + 1, round(at_s, 2))
+            }
+            None => self.method_name(),
+        }
     }
 
     fn flown_body(&self) -> Option<&'a LaneBody> {
