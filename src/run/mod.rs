@@ -10,6 +10,7 @@
 use std::mem::{replace, swap};
 
 use crate::scene::Action;
+pub use course::Checked;
 use course::{Course, Hashes, RunRecord, Snapshot};
 use past::Past;
 use race::{Author, Checkpoints, Mode, Observer, PerformedAction, TimeScale};
@@ -89,7 +90,8 @@ impl Run {
     }
 
     fn of(next: StartSettings, session: Session) -> Self {
-        let (course, changes) = (Course::new(session), UndoStack::default());
+        let course = Course::new(session, next.is_as_opened());
+        let changes = UndoStack::default();
         Self { course, next, spacing: SPACING, limit: SNAPSHOT_BYTES, changes }
     }
 
@@ -159,6 +161,18 @@ impl Run {
     /// Returns the description of the change that [`Run::redo`] would repeat; `None` if there is none.
     pub fn redoes(&self) -> Option<&str> {
         self.changes.undone.last().map(|change| &change.what[..])
+    }
+
+    /// Returns the checks of the scene that the run has reached, by tick. A run that a person has changed has no
+    /// further ones.
+    pub fn checked(&self) -> &[Checked] {
+        &self.course.record.checked
+    }
+
+    /// Returns the first failed check up to the present tick.
+    pub fn first_failed_check(&self) -> Option<Checked> {
+        let reached = self.checked().iter().take_while(|check| check.tick <= self.race().tick());
+        reached.copied().find(|check| !check.is_same)
     }
 
     /// Returns the events up to the last tick reached, in order.
@@ -275,7 +289,8 @@ impl Run {
     pub(crate) fn restart(&mut self, kept: Option<&str>, set: impl FnOnce(&mut StartSettings)) {
         let before = self.next.clone();
         set(&mut self.next);
-        let course = replace(&mut self.course, Course::new(self.next.session()));
+        let begun = Course::new(self.next.session(), self.next.is_as_opened());
+        let course = replace(&mut self.course, begun);
         self.changes.undone.clear();
         if let Some(what) = kept {
             let (what, replaced) = (what.to_owned(), Replaced::Course(Box::new(course)));
@@ -390,7 +405,7 @@ impl Run {
 
     /// Moves to `tick` from a snapshot.
     fn restore(&mut self, tick: u64) {
-        let Course { session, seen, record: RunRecord { snapshots, .. } } = &mut self.course;
+        let Course { session, seen, record: RunRecord { snapshots, .. }, .. } = &mut self.course;
         let nearest = snapshots.partition_point(|snapshot| snapshot.race.tick() <= tick) - 1;
         let is_ahead = (snapshots[nearest].race.tick()..tick).contains(&session.race.tick());
         if !is_ahead {

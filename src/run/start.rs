@@ -106,6 +106,13 @@ impl StartSettings {
         Session::new(Arc::clone(&self.scene), race)
     }
 
+    /// Whether the run starts as the scene was opened, apart from its mode and its solo method.
+    pub(crate) fn is_as_opened(&self) -> bool {
+        let bodies = self.scene.bodies.iter().zip(&self.opened.bodies);
+        self.tick_hz == self.opened.tick_hz
+            && bodies.clone().all(|(own, opened)| own.values == opened.values)
+    }
+
     /// Whether both settings have the same length, parameters and methods.
     pub(crate) fn has_same_values(&self, other: &Self) -> bool {
         let bodies = self.scene.bodies.iter().zip(&other.scene.bodies);

@@ -420,6 +420,12 @@ impl BodyCell<'_> {
     fn draw_compared(&self, picture: &mut Picture, lift: f32) {
         let Self { moment, index, ref camera, front, .. } = *self;
         let (deck, palette) = (&moment.studio.deck, moment.palette);
+        if index == 0
+            && front.id == deck.selected().id
+            && let Some(failed) = deck.run().first_failed_check()
+        {
+            captions::write_failed_check(picture, camera.rect, failed, palette);
+        }
         let Some(compared) = deck.compared().filter(|_| front.id == deck.selected().id) else {
             return;
         };

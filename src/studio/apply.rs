@@ -84,6 +84,7 @@ impl Studio {
             }
             ViewCommand::Split(splits) => display.splits = splits.clamped(),
             ViewCommand::ToggleGhost => display.ghost = !display.ghost,
+            ViewCommand::ToggleFrameRate => display.frame_rate = !display.frame_rate,
             ViewCommand::ToggleTheme => {
                 display.theme = display.theme.other();
                 self.viewer.preferences.theme_is_chosen = true;

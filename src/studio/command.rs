@@ -170,6 +170,8 @@ pub enum ViewCommand {
     ToggleFutures,
     /// Shows or hides the exact ghost.
     ToggleGhost,
+    /// Shows or hides the frame rate of the driver and the time of a frame.
+    ToggleFrameRate,
     /// Toggles between the dark and the light theme.
     ToggleTheme,
     /// Sets the next larger or smaller size of type and panels from [`SCALE_LADDER`].
