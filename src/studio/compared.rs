@@ -150,5 +150,5 @@ fn lines(first: &Difference, own: &Run) -> [String; 2] {
         }
         _ => format!("{there} there, {here} here"),
     };
-    [format!("first difference at {at_s:.3} s: {}", place.join(", ")), size]
+    [format!("differs from {at_s:.3} s on: {}", place.join(", ")), size]
 }

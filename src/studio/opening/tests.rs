@@ -279,7 +279,7 @@ fn a_differing_recording_runs_along_as_a_ghost_at_every_tick() {
     show_comparison(&mut studio, "clip.toml", &found.unwrap(), recording.clone());
     assert_eq!((studio.race().tick(), studio.running()), (61, false));
     let lines = studio.deck.compared().unwrap().lines();
-    assert_eq!(lines[0], "first difference at 1.017 s: position of spring, exact solution");
+    assert_eq!(lines[0], "differs from 1.017 s on: position of spring, exact solution");
     assert!(lines[1].contains(" m apart, ") && lines[1].ends_with(" %"), "{lines:?}");
     assert!(lines.iter().all(|line| line.chars().count() < 60), "{lines:?}");
     assert_eq!(studio.viewer.notice, None, "the stage shows it, and the footer does not repeat it");

@@ -133,7 +133,7 @@ fn a_compared_recordings_first_difference_is_marked_and_sought() {
     // The run had not come this far, so it is continued.
     assert_eq!((studio.race().tick(), studio.run().end()), (250, 250));
     let compared = studio.deck.compared().unwrap();
-    let lines = ["first difference at 4.167 s: position of spring, lane 1", "2 ulps apart"];
+    let lines = ["differs from 4.167 s on: position of spring, lane 1", "2 ulps apart"];
     assert_eq!((compared.tick(), compared.lines()), (250, lines.map(str::to_owned)));
     assert!(studio.viewer.dialog().is_none());
     studio.tick();
