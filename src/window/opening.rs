@@ -282,7 +282,7 @@ mod tests {
             studio.apply(ViewCommand::AskForRun);
             studio.apply(ViewCommand::TypePath(recording.display().to_string()));
             RequestedFile::typed(&mut studio).unwrap().read(&read()).show(&mut studio);
-            let notice = studio.viewer.notice.as_deref().unwrap().to_owned();
+            let notice = studio.viewer.notice.as_deref().unwrap_or_default().to_owned();
             (studio.deck.compared().map(Compared::tick), studio.race().tick(), notice)
         };
         let same = compare(&recorded);

@@ -6,7 +6,7 @@ use crate::run::past::Peaks;
 use crate::run::race::{Entrant, LaneBody, Mode};
 use crate::run::{METRICS, MenuIndex, Metric, energy_gained_j, energy_gained_percent, energy_j};
 use crate::scene::LaneSpec;
-use crate::stage::number::{round, significant};
+use crate::stage::number::significant;
 use crate::studio::{Studio, shown_state};
 use crate::view::panels::verdict::VerdictText;
 
@@ -96,7 +96,7 @@ impl<'a> Row<'a> {
     pub(super) fn head(&self) -> String {
         match self.studio.deck.switched(self.entry) {
             Some((to, at_s)) => {
-                format!("{} → {} (switched at {} s)", self.entry + 1, to + 1, round(at_s, 2))
+                format!("{} → {} (switched at {at_s:.2} s)", self.entry + 1, to + 1)
             }
             None => self.method_name(),
         }
