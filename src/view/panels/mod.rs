@@ -140,10 +140,6 @@ pub(super) fn show(ui: &mut Ui, studio: &Studio) -> (Vec<Command>, Rect) {
                 .frame(frame)
                 .show(ui, |ui| instruments::show_alone(ui, studio, &mut commands));
         }
-        if let Some(words) = frame_rate(studio) {
-            let (at, font) = (stage.right_bottom() - vec2(8.0, 5.0), FontId::proportional(11.0));
-            ui.painter().text(at, Align2::RIGHT_BOTTOM, words, font, palette(ui).text);
-        }
         if rate_scale::is_shown(studio, stage.size()) {
             rate_scale::show(ui, studio, stage, &mut commands);
         }
@@ -151,6 +147,10 @@ pub(super) fn show(ui: &mut Ui, studio: &Studio) -> (Vec<Command>, Rect) {
         if studio.display().enlarged {
             stage.min.x = stage.max.x;
         }
+    }
+    if let Some(words) = frame_rate(studio) {
+        let (at, font) = (stage.right_bottom() - vec2(8.0, 5.0), FontId::proportional(11.0));
+        ui.painter().text(at, Align2::RIGHT_BOTTOM, words, font, palette(ui).text);
     }
     over_stage::fit(ui, studio, stage, &mut commands);
     if let Some(mut ui) = methods.map(|room| within(ui, room)) {

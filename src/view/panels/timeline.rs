@@ -44,7 +44,9 @@ const NEAR_THE_BOUND: f64 = 0.75;
 /// Minimum distance between two numbers along the track, and between two marks, in points.
 const NUMBERS_APART: f64 = 120.0;
 const MARKS_APART: f32 = 15.0;
-/// Minimum distance between two passed checks along the track, in points.
+/// Height of a check above the middle of the track, clear of the handle, and minimum distance between two passed checks
+/// along the track, in points.
+const CHECK_HEIGHT: f32 = 11.0;
 const CHECKS_APART: f32 = 9.0;
 /// Number of ticks in the closest view.
 const MIN_TICKS: f64 = 12.0;
@@ -348,7 +350,10 @@ fn draw_checks(painter: &Painter, studio: &Studio, track: &TimelineView<'_>) {
         }
         free = x + CHECKS_APART;
         let at = |points: &[[f32; 2]]| {
-            points.iter().map(|&[dx, dy]| pos2(x + dx, track.groove.y - 8.0 + dy)).collect()
+            points
+                .iter()
+                .map(|&[dx, dy]| pos2(x + dx, track.groove.y - CHECK_HEIGHT + dy))
+                .collect()
         };
         let (signs, colour): (&[&[[f32; 2]]], _) = match is_same {
             true => (&[&[[-3.0, 0.0], [-1.0, 2.5], [3.0, -3.0]]], track.palette.good),
