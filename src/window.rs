@@ -55,7 +55,7 @@ use growing_recording::GrowingRecording;
 use opening::RequestedFile;
 use tick_timer::TickTimer;
 use watch::FileWatch;
-use work_thread::WorkThread;
+use work_thread::{WorkThread, caught};
 
 /// Longest time between two simulation steps without a frame. It is well below the clock's longest frame. A window
 /// that is hidden, or gets no requests for frames from the window system, thus drops no ticks.
@@ -291,8 +291,10 @@ impl App {
         let (spring, tick_hz) = described_spring(deck, viewer);
         let proxy = self.proxy.clone();
         thread::spawn(move || {
-            let scene = spring.advised_scene(tick_hz).into();
-            _ = proxy.send_event(Event::SpringAdvised(scene));
+            _ = proxy.send_event(match caught(|| spring.advised_scene(tick_hz)) {
+                Ok(scene) => Event::SpringAdvised(scene.into()),
+                Err(sentence) => Event::WorkFailed(sentence),
+            });
         });
     }
 

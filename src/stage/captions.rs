@@ -8,6 +8,7 @@ use super::{Align, Label, Picture, Rect, breakpoints};
 use crate::look::Look;
 use crate::look::palette::{Palette, Rgba, STALE, fade};
 use crate::measure::{Outcome, Severity};
+use crate::run::Checked;
 use crate::run::race::{Entrant, Halt, LaneBody};
 use crate::scene::Mark;
 use crate::sim::number::{round, significant};
@@ -36,6 +37,8 @@ const BESIDE_NAME: f32 = 18.0;
 const PAUSE: f32 = 34.0;
 /// Height (points) of an answer's lines above the foot of a cell, clear of the halts there.
 const ANSWER: [f32; 2] = [60.0, 44.0];
+/// Height (points) of a failed check above the foot of a cell, over the lines of an answer.
+const FAILED: f32 = 78.0;
 /// Distance (points) of captions from the left edge of a wide cell.
 const WIDE_INSET: f32 = 62.0;
 
@@ -414,6 +417,19 @@ pub(super) fn write_comparison(
         let at = [x, rect.max[1] - up];
         picture.labels.push(text(palette, at, Align::Left, 12.5, palette.accent, line));
     }
+}
+
+/// Reports that the run differs from its recording.
+pub(super) fn write_failed_check(
+    picture: &mut Picture,
+    rect: Rect,
+    Checked { tick, lane, .. }: Checked,
+    palette: &Palette,
+) {
+    let Some([x, _]) = caption_place(rect) else { return };
+    let words = format!("not the same run: tick {tick}, lane {lane}");
+    let at = [x, rect.max[1] - FAILED];
+    picture.labels.push(text(palette, at, Align::Left, 13.5, palette.bad, words));
 }
 
 /// Names a ghost in its colour, `beside` points from its middle: below it at a free side, or else above it. On a chart

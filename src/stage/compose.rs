@@ -428,14 +428,19 @@ impl BodyCell<'_> {
     fn draw_compared(&self, picture: &mut Picture, lift: f32) {
         let Self { moment, index, ref camera, front, .. } = *self;
         let (deck, palette) = (&moment.studio.deck, moment.palette);
+        if index == 0
+            && front.id == deck.selected().id
+            && let Some(failed) = deck.run().first_failed_check()
+        {
+            captions::write_failed_check(picture, camera.rect, failed, palette);
+        }
         let Some(compared) = deck.compared().filter(|_| front.id == deck.selected().id) else {
             return;
         };
         if index == 0 {
             captions::write_comparison(picture, camera.rect, compared.lines(), palette);
         }
-        let Some(body) = compared.body(deck.scene(), &front.spec, index) else { return };
-        let (q, _) = shown_state(deck, &moment.studio.viewer, body);
+        let Some((body, q)) = compared.body(deck.scene(), &front.spec, index) else { return };
         let outline = Look::of(body).outline(moment.t, &q);
         let style = LaneStyle { colour: palette.accent, dash: SOLID, fill: 0.0 };
         OutlineView { outline: &outline, camera, palette }.draw_behind(picture, style);

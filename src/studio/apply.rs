@@ -87,6 +87,7 @@ impl Studio {
             }
             ViewCommand::Split(splits) => display.splits = splits.clamped(),
             ViewCommand::ToggleGhost => display.ghost = !display.ghost,
+            ViewCommand::ToggleFrameRate => display.frame_rate = !display.frame_rate,
             ViewCommand::ToggleTheme => {
                 display.theme = display.theme.other();
                 self.viewer.preferences.theme_is_chosen = true;
@@ -137,6 +138,7 @@ impl Studio {
             ViewCommand::SpringTickHz(tick_hz) => {
                 self.viewer.dialog = Some(Dialog::Spring { tick_hz });
             }
+            ViewCommand::CloseComparison => _ = self.deck.close_comparison(),
             ViewCommand::CloseDialog => self.viewer.dialog = None,
             ViewCommand::ToggleGuide => toggle_guide(&mut self.deck, &mut self.viewer),
             ViewCommand::GoToStop(index) => go_to_stop(&mut self.deck, &mut self.viewer, index),

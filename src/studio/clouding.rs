@@ -29,7 +29,7 @@ pub fn cloud_request(studio: &Studio) -> Option<CloudRequest> {
     Some(CloudRequest {
         scene: Arc::clone(&deck.run.next().scene),
         body: viewer.view.body,
-        lanes: deck.clouded_lanes().map(|entry| (entry, deck.entries()[entry])).collect(),
+        lanes: deck.clouded_lanes().map(|entry| (entry, deck.spec(entry))).collect(),
         tick_hz,
         choice,
         tick: match choice.kind {

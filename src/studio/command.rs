@@ -143,7 +143,8 @@ pub enum ViewCommand {
     TogglePause,
     /// Reports that the pointer's button goes down or up. Undo treats all edits while the button is down as one.
     PointerDown(bool),
-    /// Holds the tick rate until the pointer's button goes up. Meanwhile time waits, and the stage shows futures.
+    /// Holds the tick rate, or another value of the run, until the pointer's button goes up. Meanwhile time waits, and
+    /// the stage shows futures.
     HoldTickRate,
     /// Opens a field for the path of a scene file.
     AskForPath,
@@ -157,6 +158,8 @@ pub enum ViewCommand {
     DescribeSpring(MySpring),
     /// Sets the tick rate (Hz) for the spring of the dialog.
     SpringTickHz(TickRate),
+    /// Ends the comparison with a recording.
+    CloseComparison,
     /// Closes the open dialog.
     CloseDialog,
     /// Puts the instruments, the table and the timeline around the stage, or lets the stage fill the window.
@@ -167,6 +170,8 @@ pub enum ViewCommand {
     ToggleFutures,
     /// Shows or hides the exact ghost.
     ToggleGhost,
+    /// Shows or hides the frame rate of the driver and the time of a frame.
+    ToggleFrameRate,
     /// Toggles between the dark and the light theme.
     ToggleTheme,
     /// Sets the next larger or smaller size of type and panels from [`SCALE_LADDER`].

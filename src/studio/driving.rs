@@ -66,6 +66,8 @@ pub(super) fn advance(
     if due.ticks > 0 {
         deck.run.show_present();
     }
+    let shown_s = shown_s(deck, viewer);
+    deck.follow_with_compared(shown_s);
     deck.dropped += due.dropped;
     note_frame(deck, viewer, frame_ns, due);
     due
@@ -75,7 +77,6 @@ pub(super) fn advance(
 pub(super) fn make_tick(deck: &mut Deck, viewer: &mut Viewer, observer: &mut dyn Observer) {
     viewer.notice.take_if(|notice| notice.is_of_tick());
     let ((), told) = deck.with_notices(|run, notices| run.tick(&mut (notices, observer)));
-    deck.follow_with_compared();
     viewer.set_notice_parts(told);
 }
 

@@ -12,6 +12,9 @@ use super::{Command, DriverRequest, Studio, ViewCommand};
 /// driver stays responsive.
 const MAX_SIMULATION_NS: u64 = 50_000_000;
 
+/// Share of the last frame in the mean time of a frame. The mean follows a change in a third of a second.
+const PART_OF_LAST_FRAME: f64 = 0.05;
+
 /// A task that a command leaves to the driver.
 #[derive(Clone, Debug, PartialEq)]
 pub enum ToDo {
@@ -135,6 +138,9 @@ impl FrameLoop {
             self.stand_still(shown_ns);
         }
         self.meter.frame(now_ns, &self.studio);
+        let work_ms = shown_ns.saturating_sub(now_ns) as f64 / 1e6;
+        let mean_ms = self.studio.viewer.frame_ms.unwrap_or(work_ms);
+        self.studio.viewer.frame_ms = Some(mean_ms + PART_OF_LAST_FRAME * (work_ms - mean_ms));
         self.asked.extend(commands);
         if self.studio.running() || !self.asked.is_empty() {
             return 0;
@@ -188,6 +194,21 @@ mod tests {
         assert_eq!(frames.begin(), None);
         frames.advance(now_ns, u64::MAX, &|| now_ns);
         frames.end(now_ns, now_ns, commands)
+    }
+
+    #[test]
+    fn the_time_of_a_frame_follows_the_work_on_it() {
+        let (mut frames, mut now_ns) = begun("spring");
+        for work_ns in [4_000_000, 12_000_000] {
+            for _ in 0..200 {
+                assert_eq!(frames.begin(), None);
+                frames.advance(now_ns, u64::MAX, &|| now_ns);
+                frames.end(now_ns, now_ns + work_ns, Vec::new());
+                now_ns += FRAME_NS;
+            }
+            let ms = frames.studio.viewer.frame_ms.expect("it is measured");
+            assert!((ms - work_ns as f64 / 1e6).abs() < 0.1, "{ms} ms of {work_ns} ns");
+        }
     }
 
     #[test]

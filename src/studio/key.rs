@@ -215,6 +215,8 @@ pub static KEYS: &[Binding] = keys! {
         ControlSign('l') => Ask(DriverRequest::CopyLink);
     once "X" "equal cost of all lanes on / off: cheap lanes get more substeps":
         Sign('x') => Run(RunCommand::ToggleEqualCost);
+    once "F4" "frames drawn in a second, and milliseconds of work on each, on / off":
+        Function(4) => View(ViewCommand::ToggleFrameRate);
     once "F11" "full screen":
         Function(11) => Ask(DriverRequest::ToggleFullScreen);
     once "F2" "guide: the chapter in stops, each with a prediction and a key to press":

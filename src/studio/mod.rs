@@ -238,6 +238,7 @@ impl Studio {
     /// Performs the actions at this tick, and steps to the next tick.
     pub fn tick(&mut self) {
         make_tick(&mut self.deck, &mut self.viewer, &mut ());
+        self.deck.follow_with_compared(self.deck.race().t());
     }
 
     /// Adds a frame of `frame_ns` nanoseconds of real time, and makes the ticks that are due.

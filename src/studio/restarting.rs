@@ -34,7 +34,7 @@ pub(super) fn follow(deck: &mut Deck, viewer: &mut Viewer, jump: Jump) {
         deck.dropped = 0;
         (viewer.notice, deck.compared) = (None, None);
     }
-    deck.follow_with_compared();
+    deck.follow_with_compared(deck.race().t());
     deck.run.show_present();
 }
 

@@ -111,6 +111,7 @@ impl Default for Preferences {
                 splits: Splits::default(),
                 futures: false,
                 ghost: true,
+                frame_rate: false,
                 interpolation: Interpolation::default(),
                 instrument: Instrument::Motion,
                 quantity: None,
@@ -149,6 +150,8 @@ pub struct Viewer {
     pub(super) pointed: Option<MenuIndex>,
     /// The driver's pace while time runs, or `None` if there is no real time, as in a capture.
     pub pace: Option<Pace>,
+    /// Recent mean time (ms) that the driver works on a frame, or `None` if there is no real time.
+    pub frame_ms: Option<f64>,
     /// Duration (ns) of each lane's tick, as last measured by the driver, or `None` for a lane that halted.
     pub tick_times: Vec<(LaneSpec, Option<f64>)>,
     /// The latest message, while it is shown.
@@ -183,6 +186,7 @@ impl Viewer {
         Self {
             preferences: self.preferences.clone(),
             pace: self.pace,
+            frame_ms: self.frame_ms,
             hints: self.hints.of_next_scene(),
             hints_of_left: self.hints_of_left.clone(),
             tour: self.tour.take(),

@@ -1,11 +1,11 @@
 //! The panels around the stage. They read the studio and return commands, but change nothing.
 
 use egui::epaint::PathShape;
-use egui::{Frame, Key, Margin, Pos2, Rect, Stroke, Ui, Vec2, pos2, vec2};
+use egui::{Align2, FontId, Frame, Key, Margin, Pos2, Rect, Stroke, Ui, Vec2, pos2, vec2};
 
 use super::theme::palette;
 use crate::run::race::Mode;
-use crate::studio::{Command, Dialog, Splits, Studio, ViewCommand};
+use crate::studio::{Command, Dialog, Pace, Splits, Studio, ViewCommand};
 
 mod advice;
 mod annotations;
@@ -75,6 +75,16 @@ const EDGE: Vec2 = vec2(16.0, 80.0);
 const INSPECTOR: f32 = 0.62;
 const MIN_INSPECTOR: f32 = 130.0;
 
+/// Returns the frame rate and the time of a frame in words, if a person asks for them and there is real time.
+fn frame_rate(studio: &Studio) -> Option<String> {
+    let ms = studio.viewer.frame_ms.filter(|_| studio.display().frame_rate)?;
+    let rate = match studio.viewer.pace? {
+        Pace::Measured { frames_per_second, .. } => format!("{frames_per_second:.0} frames/s · "),
+        Pace::Unknown => String::new(),
+    };
+    Some(format!("{rate}{ms:.1} ms a frame"))
+}
+
 /// Shows all panels. Returns the commands and the rectangle left for the stage, in points.
 pub(super) fn show(ui: &mut Ui, studio: &Studio) -> (Vec<Command>, Rect) {
     let mut commands = Vec::new();
@@ -137,6 +147,10 @@ pub(super) fn show(ui: &mut Ui, studio: &Studio) -> (Vec<Command>, Rect) {
         if studio.display().enlarged {
             stage.min.x = stage.max.x;
         }
+    }
+    if let Some(words) = frame_rate(studio) {
+        let (at, font) = (stage.right_bottom() - vec2(8.0, 5.0), FontId::proportional(11.0));
+        ui.painter().text(at, Align2::RIGHT_BOTTOM, words, font, palette(ui).text);
     }
     over_stage::fit(ui, studio, stage, &mut commands);
     if let Some(mut ui) = methods.map(|room| within(ui, room)) {

@@ -73,7 +73,7 @@ fn marks<'a>() -> [Column<Row<'a>>; 3] {
         |ui, row: &Row<'a>, rect, _| {
             if row.is_first {
                 let is_strong = row.entry == row.studio.active();
-                show_words(ui, rect, &row.method_name(), is_strong, row.text(ui));
+                show_words(ui, rect, &row.head(), is_strong, row.text(ui));
             }
         },
         |row| SortKey::Words(row.spec.method.name.into()),

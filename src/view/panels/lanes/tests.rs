@@ -246,3 +246,29 @@ fn the_cost_has_a_column_in_a_race_only() {
     studio.apply(StageCommand::ToggleRace);
     assert!(has_cost(&studio));
 }
+
+#[test]
+fn in_the_race_of_a_recording_each_key_and_row_has_its_own_lane() {
+    let mut recorded = Studio::new(Scene::built_in("harbour").unwrap());
+    (0..121).for_each(|_| recorded.tick());
+    recorded.apply(StageCommand::Pick(1));
+    (0..90).for_each(|_| recorded.tick());
+    let text = recorded.deck.recording().unwrap();
+    let mut studio = Studio::new(Scene::parse("run.toml", &text).unwrap());
+    studio.apply(StageCommand::ToggleRace);
+    (0..200).for_each(|_| studio.tick());
+    let lanes = studio.race().entrants().len();
+    let mut numbers = Vec::new();
+    for entry in 0..lanes {
+        studio.apply(StageCommand::Pick(entry));
+        assert_eq!((studio.active(), studio.selected().id.index()), (entry, entry));
+        let rows = groups(&studio);
+        numbers.push(rows[entry][0].largest_error().expect("it runs"));
+    }
+    assert!(numbers[0] > 5.0 * numbers[1] && numbers[1] > 0.0, "{numbers:?}");
+    let rows = groups(&studio);
+    assert_eq!(rows[0][0].head(), "1 → 2 (switched at 2.02 s)");
+    assert_eq!(rows[1][0].head(), "Semi-implicit Euler");
+    let verdicts = studio.analysis_request().entries;
+    assert_eq!(verdicts[0].method, verdicts[1].method, "judged as it runs now");
+}
