@@ -220,7 +220,7 @@ fn tables(rule: &Rule) -> String {
     let is_driven = |seen: &VisibleMotion| seen.top_speed.or(seen.accelerates).is_some();
     let mut said = text(COLUMNS, &motions, "  ");
     if rule.settles_within() != 0.01 {
-        let percent = significant(100.0 * rule.settles_within(), 3);
+        let percent = (1e8 * rule.settles_within()).round() / 1e6;
         said = said.replacen("1 % AFTER s", &format!("{percent} % AFTER s"), 1);
     }
     if motions.iter().any(is_driven) {
@@ -251,10 +251,10 @@ fn outcome(piece: &Piece, whole: &Rule) -> String {
             let rate = if is_alike { ", at every frame rate" } else { "" };
             format!("it moves at a constant {} a second{rate}", number(speed))
         }
-        (None, VisibleMotion { hz: Some(hz), spring: Some(spring), .. }) => {
-            let ratio =
-                spring.damping_ratio().map_or(String::new(), |it| format!(", {}", number(it)));
-            format!("{} Hz{ratio}", number(hz))
+        (None, VisibleMotion { hz: Some(_), spring: Some(spring), .. }) => {
+            let ratio = spring.damping_ratio().map(number);
+            let ratio = ratio.map_or(String::new(), |ratio| format!(", damping ratio {ratio}"));
+            format!("a spring of {} Hz{ratio}", number(spring.undamped_hz()))
         }
         (None, VisibleMotion { accelerates: Some(gain), top_speed: None, .. }) => {
             format!("the speed changes by {} a second", number(gain.abs()))
@@ -289,14 +289,13 @@ fn report_text(rule: &Rule, written: &str, language: Language) -> String {
     if pieces.is_empty() {
         said += &tables(rule);
     } else {
-        said = format!(
-            "not linear, but in {} pieces; of {}\n",
-            pieces.len(),
-            rule.state().collect::<Vec<_>>().join(" and ")
-        );
+        let state = rule.state().collect::<Vec<_>>().join(" and ");
+        said = format!("not linear, but in pieces; of {state}\n");
         for piece in &pieces {
             said += &format!("\n{}: {}\n", piece.condition, outcome(piece, rule));
-            said += &tables(&piece.rule);
+            if !matches!(piece.course(), Some(Course::Stops | Course::Stays)) {
+                said += &tables(&piece.rule);
+            }
         }
     }
     if let Some([kept, other]) = rule.left_out() {

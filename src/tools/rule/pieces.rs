@@ -43,7 +43,14 @@ pub enum Course {
 impl Rule {
     /// Returns the pieces of a rule that is linear only piece by piece; empty for all other rules.
     pub fn pieces(&self) -> Vec<Piece> {
-        self.find_pieces().filter(|pieces| pieces.len() > 1).unwrap_or_default()
+        let has_many = self.text.switches().any(|(kind, _)| kind == SwitchKind::Many);
+        let mut pieces = self.find_pieces().unwrap_or_default();
+        match &mut pieces[..] {
+            [one] if has_many => one.condition = "in each turn".into(),
+            [_] => return Vec::new(),
+            _ => {}
+        }
+        pieces
     }
 
     fn find_pieces(&self) -> Option<Vec<Piece>> {
@@ -105,18 +112,16 @@ impl Rule {
             all.find(|(_, (kind, _))| *kind == SwitchKind::Condition).map_or(0, |(mode, _)| -*mode)
         };
         // A motion comes before a stop.
-        pieces.sort_by_key(|piece| (piece.course().is_some(), truth(piece)));
-        let last = pieces.len() - 1;
-        if last == 1 {
-            pieces[last].condition = match (&*pieces[0].condition, &*pieces[last].condition) {
-                (_, "") => "else".into(),
-                (_, label) => label.to_owned(),
+        let ends = |piece: &Piece| matches!(piece.course(), Some(Course::Stops | Course::Stays));
+        pieces.sort_by_key(|piece| (ends(piece), truth(piece)));
+        let others: Vec<String> = pieces.iter().rev().map(|it| it.condition.clone()).collect();
+        for (piece, other) in
+            pieces.iter_mut().zip(&others).filter(|(it, _)| it.condition.is_empty())
+        {
+            piece.condition = match other.strip_prefix("within ") {
+                Some(limits) if others.len() == 2 => format!("beyond {limits}"),
+                _ => "elsewhere".into(),
             };
-        }
-        for piece in &mut pieces {
-            if piece.condition.is_empty() {
-                piece.condition = "elsewhere".into();
-            }
         }
         Some(pieces)
     }
