@@ -268,10 +268,7 @@ impl Grid {
 
     /// Returns the springs that begin in a row, each with the column from which it runs [right or
     /// below](SpringDirection). Leaves out springs between fixed nodes.
-    fn springs(
-        &self,
-        row: usize,
-    ) -> impl Iterator<Item = (usize, SpringDirection)> + use<> {
+    fn springs(&self, row: usize) -> impl Iterator<Item = (usize, SpringDirection)> + use<> {
         let grid = *self;
         let ways = move |column: usize| {
             let (right, down) = (column + 1 < grid.columns, row + 1 < grid.rows);

@@ -5,6 +5,7 @@ use std::ops::Range;
 use super::plain::{is_name_part, lower_name};
 use super::reader::{OTHER_NAMES, STEP_NAMES};
 use super::{BUILT_IN, TARGET, V, X};
+use crate::sim::law::function::Function;
 
 /// Names before a function or a number that are no value.
 const NAMESPACES: [&str; 9] = ["math", "std", "f32", "f64", "glm", "np", "numpy", "this", "self"];
@@ -135,6 +136,26 @@ fn meant(names: &[String]) -> (usize, Option<u8>) {
         None => (last, None),
     }
 }
+
+/// Returns the byte range of the velocity that a value changes, if it is a call of Unity's `SmoothDamp`.
+pub(super) fn damped_velocity(text: &str, value: &Range<usize>) -> Option<Range<usize>> {
+    let call = &text[value.clone()];
+    let open = call.find('(')?;
+    let function = Function::named_in_steps(call[..open].trim())?;
+    let (mut depth, mut commas) = (0, Vec::new());
+    for (at, sign) in call.char_indices() {
+        depth += i32::from(sign == '(') - i32::from(sign == ')');
+        commas.extend((sign == ',' && depth == 1).then_some(at));
+    }
+    let argument = &call[commas.get(1)? + 1..*commas.get(2)?];
+    let name = argument.trim();
+    let start = value.start + commas[1] + 1 + argument.find(name)?;
+    let is_name = name.bytes().all(is_name_part) && !name.is_empty();
+    (function.name == SMOOTH_DAMP && is_name).then_some(start..start + name.len())
+}
+
+/// Unity's spring, which also assigns its velocity.
+pub(super) const SMOOTH_DAMP: &str = "smoothDamp";
 
 #[cfg(test)]
 mod tests {

@@ -2,6 +2,7 @@
 
 use std::ops::Range;
 
+use super::paths::{SMOOTH_DAMP, damped_velocity};
 use super::plain::is_name_part;
 use super::statements::Statement;
 use super::{BUILT_IN, Carried, H, Line, StepCall, StepText, TARGET, V, X};
@@ -102,25 +103,6 @@ pub(super) struct Reader<'t> {
 
 /// The place that `SmoothDamp` leaves, until the velocity is assigned.
 const DAMPED_PLACE: &str = "damped_place";
-
-/// Returns the byte range of the velocity that a value changes, if it is a call of Unity's `SmoothDamp`.
-fn damped_velocity(text: &str, value: &Range<usize>) -> Option<Range<usize>> {
-    let call = &text[value.clone()];
-    let open = call.find('(')?;
-    let function = Function::named_in_steps(call[..open].trim())?;
-    let (mut depth, mut commas) = (0, Vec::new());
-    for (at, sign) in call.char_indices() {
-        depth += i32::from(sign == '(') - i32::from(sign == ')');
-        commas.extend((sign == ',' && depth == 1).then_some(at));
-    }
-    let argument = &call[commas.get(1)? + 1..*commas.get(2)?];
-    let name = argument.trim();
-    let start = value.start + commas[1] + 1 + argument.find(name)?;
-    let is_name = name.bytes().all(is_name_part) && !name.is_empty();
-    (function.name == SMOOTH_DAMP && is_name).then_some(start..start + name.len())
-}
-
-const SMOOTH_DAMP: &str = "smoothDamp";
 
 /// Whether a text has this word.
 fn has_word(text: &str, word: &str) -> bool {
