@@ -195,6 +195,14 @@ struct Rerun {
     experiment: Experiment,
 }
 
+/// A repeated run: the studio at its end, and the log of its states.
+struct Repeated {
+    studio: Studio,
+    state_log: StateLog,
+    /// The first frame whose moment differs, with its tick, if no frame was drawn.
+    moment: Option<(u64, String)>,
+}
+
 /// The frames of a repeated run.
 struct Frames {
     /// Whether the frames must be the same to the byte.
@@ -211,16 +219,19 @@ impl Rerun {
         (studio, state_log)
     }
 
-    /// Runs the studio to the end without drawing. Returns the studio and the log of its states, or `None` after an
-    /// interrupt.
-    fn run(&self, interrupted: &AtomicBool) -> Option<(Studio, StateLog)> {
+    /// Runs the studio to the end without drawing, or to an interrupt, after which it returns `None`.
+    fn run(&self, interrupted: &AtomicBool) -> Option<Repeated> {
         let (mut studio, mut state_log) = self.begin();
-        for frame in 0..self.manifest.frames.len() as u32 {
+        let mut moment = None;
+        for (frame, entry) in (0..).zip(&self.manifest.frames) {
             if interrupted.load(Ordering::Relaxed) {
                 return None;
             }
             self.capture.schedule.advance(&mut studio, frame, &mut state_log);
+            let (tick, alpha) = (studio.race().tick(), studio.clock().alpha_fraction());
+            let other = || physics::other_moment(entry, tick, alpha);
+            moment = moment.or_else(|| Some((tick, format!("{}: {}", entry.file, other()?))));
         }
-        Some((studio, state_log))
+        Some(Repeated { studio, state_log, moment })
     }
 }

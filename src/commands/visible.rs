@@ -10,8 +10,8 @@ fn is_hidden(sign: char) -> bool {
     hides_or_breaks(sign) && !matches!(sign, '\n' | '\t')
 }
 
-/// Replaces control characters, separators of lines, and characters that set the direction of writing, by visible signs. A control character
-/// becomes its picture in Unicode, if it has one. CRLF line ends stay.
+/// Replaces control characters, separators of lines, and characters that set the direction of writing, by visible
+/// signs. A control character becomes its picture in Unicode, if it has one. CRLF line ends stay.
 pub fn visible(text: &str) -> Cow<'_, str> {
     if !text.contains(is_hidden) {
         return text.into();

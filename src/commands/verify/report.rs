@@ -81,7 +81,7 @@ fn is_report(path: &Path) -> bool {
 /// The result of a command. Each line that is added also goes to standard output at once.
 #[derive(Debug)]
 pub(super) struct Report {
-    path: PathBuf,
+    pub(super) path: PathBuf,
     /// Name of each judged case, and the difference in it, if there is one.
     cases: Vec<(String, Option<String>)>,
     /// JSON fields besides those that all reports have.

@@ -269,9 +269,10 @@ impl Rule {
             "memory unspent = 0.0\nmemory before = nan\nmemory shown = nan\n".to_owned();
         source += &self.head(self.text.takes_target(), 0..self.text.carried().len());
         functions.iter().for_each(|function| source += &format!("{function}\n"));
-        let step =
-            if lines.iter().any(|line| line.starts_with(StepCode::STEP)) { "var" } else { "let" };
-        let reads = lines.iter().any(|line| line.contains(StepCode::STEP));
+        let is_part = |c: char| c.is_ascii_alphanumeric() || c == '_';
+        let words = |line: &String| line.split(|c| !is_part(c)).position(|it| it == StepCode::STEP);
+        let step = if lines.iter().any(|line| words(line) == Some(0)) { "var" } else { "let" };
+        let reads = lines.iter().any(|line| words(line).is_some());
         let step = reads.then(|| match self.units {
             1.0 => format!("{step} {} = FRAME_S", StepCode::STEP),
             units => format!("{step} {} = FRAME_S * {units:?}", StepCode::STEP),
