@@ -18,6 +18,8 @@ use crate::studio::{shown_state, shown_truth, slowed_in_words};
 const BAR_MARGIN: f32 = 130.0;
 /// Height of a chip, in points.
 const CHIP: f32 = 27.0;
+/// Distance (points) between the two lines beside a lane.
+const LINE: f32 = 16.0;
 /// Upper bounds of the mean letter width (points): in a body's name, in a verdict, and in other words at a cell's
 /// head.
 const NAME_LETTER: f32 = 8.5;
@@ -32,6 +34,8 @@ const MAX_FOR_LANES: f32 = 0.28;
 const LANE_INSET: f32 = 8.0;
 /// Room (points) of a ghost's name besides its letters.
 const BESIDE_NAME: f32 = 18.0;
+/// Distance (points) between the verdicts of two lanes.
+const BETWEEN_LANES: f32 = 14.0;
 /// Height (points) of an answer's lines above the foot of a cell, clear of the halts there.
 const ANSWER: [f32; 2] = [60.0, 44.0];
 /// Distance (points) of captions from the left edge of a wide cell.
@@ -95,10 +99,18 @@ pub(super) fn lane(picture: &mut Picture, rect: Rect, moment: &DrawContext<'_>, 
         [body] => body.halted(),
         _ => None,
     };
-    let y = if alone.is_some() { middle - 8.0 } else { middle };
-    write(y, colour, name);
+    let verdict = studio.viewer.verdict_from_here(&studio.deck, entry);
+    let verdict = verdict.and_then(|verdict| Chip::of(moment, verdict.body, entrant));
+    let verdict = verdict.filter(|_| rect.max[1] - rect.min[1] >= 2.0 * LINE);
+    let is_under = alone.is_some() || verdict.is_some();
+    write(if is_under { middle - LINE / 2.0 } else { middle }, colour, name);
     if let Some(halt) = alone {
-        write(middle + 8.0, moment.palette.bad, fate_within(halt, right - left));
+        write(middle + LINE / 2.0, moment.palette.bad, fate_within(halt, right - left));
+    } else if let Some(Chip { sign, colours, verdict, brief }) = verdict {
+        let mut wordings = [Some(verdict), brief].into_iter().flatten();
+        let words = wordings.find(|words| words.chars().count() + 2 <= letters);
+        let words = words.map_or(sign.to_owned(), |words| format!("{sign} {words}"));
+        write(middle + LINE / 2.0, colours[0], words);
     }
 }
 
@@ -203,6 +215,55 @@ pub(super) fn head(
     }
 }
 
+/// Writes the verdicts of a race at the head of a cell: that on the lane in front as a chip, and before it the sign and
+/// the number of each other lane, with its words if there is room for all.
+pub(super) fn verdicts(
+    picture: &mut Picture,
+    rect: Rect,
+    moment: &DrawContext<'_>,
+    index: usize,
+    (entrants, front): (&[&Entrant], &Entrant),
+) {
+    if rect.max[1] - rect.min[1] < breakpoints::CHIP || caption_place(rect).is_none() {
+        return;
+    }
+    let left = name_room(rect, moment, index).map_or(rect.min[0] + 10.0, |name| name.max[0] + 10.0);
+    let (mut right, y) = (rect.max[0] - 10.0, rect.min[1] + 4.0 + CHIP / 2.0);
+    let chip = Chip::of(moment, index, front).and_then(|chip| chip.longest_within(right - left));
+    if let Some(chip) = chip {
+        right -= chip.width() + 12.0;
+        chip.draw(picture, rect, moment.palette);
+    }
+    let others = entrants.iter().filter(|lane| lane.id != front.id);
+    let others = others
+        .filter_map(|lane| Some((moment.studio.entry(lane) + 1, Chip::of(moment, index, lane)?)));
+    let others: Vec<(usize, Chip)> = others.collect();
+    let all = |words: fn(&Chip) -> &str| {
+        let one = |(number, chip): &(usize, Chip)| {
+            let words = words(chip);
+            let space = if words.is_empty() { "" } else { " " };
+            format!("{number} {}{space}{words}", chip.sign)
+        };
+        others.iter().map(one).collect::<Vec<_>>()
+    };
+    let widths = |all: &[String]| -> Vec<f32> {
+        all.iter().map(|words| LETTER * words.chars().count() as f32 + BETWEEN_LANES).collect()
+    };
+    let wordings: [fn(&Chip) -> &str; 3] =
+        [|chip| &chip.verdict, |chip| chip.brief.as_ref().unwrap_or(&chip.verdict), |_| ""];
+    let fits = |all: &Vec<String>| widths(all).iter().sum::<f32>() <= right - left;
+    let all = wordings.into_iter().map(all).find(fits).unwrap_or_else(|| all(wordings[2]));
+    for (((_, chip), words), width) in others.iter().zip(&all).zip(widths(&all)).rev() {
+        if right - width < left {
+            return;
+        }
+        right -= width;
+        let at = [right, y];
+        let colour = chip.colours[0];
+        picture.labels.push(text(moment.palette, at, Align::Left, 12.5, colour, words.clone()));
+    }
+}
+
 /// Words beside a body's name, and their colour: its halt, its place while a person holds it, or else its expected
 /// motion.
 fn beside_name(moment: &DrawContext<'_>, index: usize, body: &LaneBody) -> (String, Rgba) {
@@ -290,34 +351,29 @@ struct Chip {
 }
 
 impl Chip {
-    /// The chip of a body whose method is inaccurate.
+    /// The chip of a body under a lane's method, if its verdict is known.
     fn of(moment: &DrawContext<'_>, index: usize, entrant: &Entrant) -> Option<Self> {
-        let entry = moment.studio.entry(entrant);
-        let verdict = moment.studio.viewer.verdict(entry)?;
-        let palette = moment.palette;
+        let studio = moment.studio;
+        let entry = studio.entry(entrant);
         let halt = entrant.lane.bodies()[index].halted();
+        let verdict = studio.viewer.verdict_from_here(&studio.deck, entry)?;
         let outcome = halt.map_or(verdict.outcome(), Outcome::of_halt);
         let severity = outcome.severity();
-        if verdict.body != index || matches!(severity, Severity::Fine | Severity::Unknown) {
+        if verdict.body != index || severity == Severity::Unknown {
             return None;
         }
-        // The run on the screen differs from the judged one.
-        let is_other = moment.studio.deck.is_judged_apart();
-        let viewer = &moment.studio.viewer;
-        let is_current = viewer.is_judged_at(entry, moment.studio.clock().tick_hz());
-        let tone = palette.of_severity(severity);
+        let is_current = studio.viewer.is_judged_now(&studio.deck, entry);
+        let tone = moment.palette.of_severity(severity);
+        let mut wordings = verdict.wordings(false).into_iter();
+        let words = halt.map(Halt::fate).or_else(|| wordings.next())?;
         Some(Self {
             sign: outcome.sign().glyph(),
             colours: [
                 if is_current || halt.is_some() { tone } else { fade(tone, STALE) },
                 moment.style(entry).0,
             ],
-            verdict: match halt {
-                Some(halt) => halt.fate(),
-                None if is_other => verdict.wordings_of_another_run(false)[0].clone(),
-                None => verdict.wordings(false)[0].clone(),
-            },
-            brief: verdict.fails_in_brief().filter(|_| is_other && halt.is_none()),
+            verdict: words,
+            brief: halt.map(|halt| halt.ending().into()).or_else(|| wordings.next()),
         })
     }
 
@@ -530,14 +586,14 @@ mod tests {
     }
 
     #[test]
-    fn the_chip_of_an_edited_run_marks_the_verdict_as_another_runs() {
+    fn the_chip_of_an_edited_run_is_of_what_follows_the_edit() {
         let words = |studio: &Studio, size| -> Vec<String> {
             let labels = compose(studio, size).labels.into_iter().map(|label| label.text);
             labels.filter(|text| text.contains("blow")).collect()
         };
         for (ticks, wide, narrow) in [
             (0, "blows up · at 4.14 s", "blows up · at 4.14 s"),
-            (20, "if run from the start: blows up · at 4.14 s", "blows up, if run from the start"),
+            (20, "blows up · at 4.48 s", "blows up · at 4.48 s"),
         ] {
             let mut studio = Studio::new(Scene::built_in("stiff").unwrap());
             (0..ticks).for_each(|_| studio.tick());
