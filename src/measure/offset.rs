@@ -3,6 +3,8 @@
 //! Such a lane is judged beside the exact motion from its own state, which shows what its method does from there. The
 //! distance between that motion and the truth is added to the method's errors.
 
+use super::amplitude::Trend;
+use super::amplitude::Trend;
 use super::criterion::{FREQUENCY_TOLERANCE, TOLERANCE, VISIBLE};
 use super::judge::Judge;
 use super::truth::{BodyTruth, Swing, ticks};
@@ -32,9 +34,10 @@ async fn beside(found: Comparison, [own, truth]: [&BodyTruth; 2], tick_hz: TickR
     let error = found.error + distance.error;
     let swings = own.swing.as_ref().zip(truth.swing.as_ref());
     let widths = [own, truth].map(width_of);
-    let grown = found.width.unwrap_or(1.0);
-    let widths = widths[0].zip(widths[1]).map(|(own, truth)| [grown * own, truth]);
-    let width = widths.map(|[own, truth]| own / truth).or(found.width);
+    // A swing that grows has no width to stay at, so that its width is the present one.
+    let grown = found.width.filter(|_| found.change != Trend::Grows).unwrap_or(1.0);
+    let widths = widths[0].zip(widths[1]);
+    let width = widths.map(|(own, truth)| grown * own / truth).or(found.width);
     let own_frequency = found.frequency_error.unwrap_or(0.0);
     let frequency_error = swings
         .and_then(|(own, truth)| truth.frequency_error(&own.crossings))
@@ -55,8 +58,9 @@ async fn beside(found: Comparison, [own, truth]: [&BodyTruth; 2], tick_hz: TickR
         looks_right: found.looks_right.map(|looks_right| looks_right && is_alike),
         width,
         widths: widths.zip(swings).filter(|_| truth.energy_scale.is_some()).map(
-            |([own, exact], (_, swing))| SwingWidths {
-                own,
+            |((own, exact), (_, swing))| SwingWidths {
+                // The width of a swing that goes on growing is that at the start.
+                own: if found.change == Trend::None { grown * own } else { own },
                 truth: exact,
                 unit: truth.coordinates().at(swing.coordinate).shown_unit(),
             },

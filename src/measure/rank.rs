@@ -2,8 +2,7 @@
 //!
 //! The lowest [cost](CriterionMet::cost_per_s) comes first. Of equal costs a [last resort](is_last_resort) comes last;
 //! other ties go to the larger [reserve](CriterionMet::reserve), then to the fewest substeps, then to the place in the
-//! table of methods. A method with a reserve below
-//! [`LITTLE_RESERVE`] is passed over if another method has a larger reserve at up to [`TIMES_ITS_COST`] times the cost.
+//! table of methods. A method with a reserve below [`LITTLE_RESERVE`] is passed over if another method has a larger reserve at up to [`TIMES_ITS_COST`] times the cost.
 
 use super::criterion::CriterionMet;
 use crate::sim::integrators::{METHODS, Method};
@@ -36,8 +35,19 @@ struct Ranked<'a> {
 }
 
 impl Ranked<'_> {
-    /// Whether `other` has a larger reserve at little more cost.
+    /// Whether this is a last resort, and `other` is none at the same cost.
+    fn is_replaced_by(&self, other: &Self) -> bool {
+        self.is_last_resort && !other.is_last_resort && other.met.cost_per_s <= self.met.cost_per_s
+    }
+
+    /// Whether `other` has a larger reserve at little more cost, or the same cost where this is a last resort.
     fn loses_to(&self, other: &Self) -> bool {
+        if self.is_last_resort
+            && !other.is_last_resort
+            && other.met.cost_per_s == self.met.cost_per_s
+        {
+            return true;
+        }
         self.reserve < LITTLE_RESERVE
             && other.reserve > self.reserve
             && (self.is_last_resort || !other.is_last_resort)
@@ -76,7 +86,9 @@ impl<'a> Ranking<'a> {
 
     /// Returns the index of the recommended method.
     pub(super) fn recommended_index(&self) -> Option<usize> {
-        let is_outdone = |one: &Ranked| self.all.iter().any(|other| one.loses_to(other));
+        let is_outdone = |one: &Ranked| {
+            self.all.iter().any(|other| one.loses_to(other) || one.is_replaced_by(other))
+        };
         self.all.iter().find(|one| !is_outdone(one)).map(|one| one.index)
     }
 

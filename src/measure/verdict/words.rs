@@ -8,7 +8,7 @@ use crate::measure::chase_finding::ChaseFinding;
 use crate::measure::criterion::{TOLERANCE, VISIBLE};
 use crate::measure::energy_finding::EnergyFinding;
 use crate::measure::outcome::Outcome;
-use crate::sim::number::{duration, in_unit, significant, superscript};
+use crate::sim::number::{duration, in_unit, round, significant, superscript};
 
 /// Largest relative frequency error that is too small to cause anything.
 const FAINT_PITCH: f64 = 1e-4;
@@ -332,7 +332,7 @@ fn too_wide(width: f64) -> String {
 
 impl fmt::Display for SwingWidths {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let [own, truth] = [self.own, self.truth].map(|width| significant(width, 3));
+        let [own, truth] = [self.own, self.truth].map(|width| round(width, 3));
         write!(f, "stays ±{own} {}", self.unit)?;
         write!(f, "{}(exact ±{truth})", if self.unit.is_empty() { "" } else { " " })
     }
