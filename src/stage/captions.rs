@@ -8,11 +8,12 @@ use super::{Align, Label, Picture, Rect, breakpoints};
 use crate::look::Look;
 use crate::look::palette::{Palette, Rgba, STALE, fade};
 use crate::measure::{Outcome, Severity};
+use crate::run::Checked;
 use crate::run::race::{Entrant, Halt, LaneBody};
 use crate::scene::Mark;
 use crate::sim::number::{round, significant};
 use crate::studio::Studio;
-use crate::studio::{shown_state, shown_truth, slowed_in_words};
+use crate::studio::{pace_in_words, shown_state, shown_truth};
 
 /// Room of a scale bar at the right of a cell, in points.
 const BAR_MARGIN: f32 = 130.0;
@@ -34,10 +35,17 @@ const MAX_FOR_LANES: f32 = 0.28;
 const LANE_INSET: f32 = 8.0;
 /// Room (points) of a ghost's name besides its letters.
 const BESIDE_NAME: f32 = 18.0;
+<<<<<<< HEAD
 /// Distance (points) between the verdicts of two lanes.
 const BETWEEN_LANES: f32 = 14.0;
+=======
+/// Side of the sign of a pause, in points.
+const PAUSE: f32 = 34.0;
+>>>>>>> main
 /// Height (points) of an answer's lines above the foot of a cell, clear of the halts there.
 const ANSWER: [f32; 2] = [60.0, 44.0];
+/// Height (points) of a failed check above the foot of a cell, over the lines of an answer.
+const FAILED: f32 = 78.0;
 /// Distance (points) of captions from the left edge of a wide cell.
 const WIDE_INSET: f32 = 62.0;
 
@@ -152,7 +160,13 @@ pub(super) fn halts<'h>(
     let of_bodies = of_bodies.map(|words| (words, palette.bad));
     for ((words, colour), y) in of_bodies.into_iter().chain(of_truth).zip([12.0, 27.0]) {
         let at = [rect.min[0] + 9.0 + inset(rect), rect.max[1] - y];
-        picture.labels.push(text(palette, at, Align::Left, 11.0, colour, words));
+        let label = text(palette, at, Align::Left, 11.0, colour, words);
+        let [left, right] = span(&label);
+        // A net may hang down to here.
+        let (min, max) = ([left - 4.0, at[1] - 7.5], [right + 4.0, at[1] + 7.5]);
+        let below = [min, [max[0], min[1]], max, [min[0], max[1]]];
+        picture.pen(rect).fill(&below, fade(palette.sea[1], 0.85));
+        picture.labels.push(label);
     }
 }
 
@@ -194,6 +208,10 @@ pub(super) fn head(
     entrant: &Entrant,
 ) {
     let Some([x, y]) = caption_place(rect) else { return };
+    // In a low cell, the words would lie over the body.
+    if rect.max[1] - rect.min[1] < breakpoints::SCALE_BAR {
+        return;
+    }
     let body = &entrant.lane.bodies()[index];
     let name = moment.studio.scene().bodies[index].name.chars().count();
     let left = x + NAME_LETTER * name as f32 + 14.0;
@@ -285,8 +303,10 @@ fn beside_name(moment: &DrawContext<'_>, index: usize, body: &LaneBody) -> (Stri
             let truth = &studio.race().truth().bodies()[index];
             let (q, v) = shown_truth(&studio.deck, &studio.viewer, index);
             let motion = Look::of(truth).describe_motion(&q, &v);
-            let slowed = slowed_in_words(&studio.deck, &studio.viewer).filter(|_| index == 0);
-            motion.into_iter().chain(slowed).collect::<Vec<_>>().join(" · ")
+            // The bar above the instruments says it too.
+            let is_told = index == 0 && !studio.display().measure;
+            let pace = pace_in_words(&studio.deck, &studio.viewer).filter(|_| is_told);
+            motion.into_iter().chain(pace).collect::<Vec<_>>().join(" · ")
         }
     };
     (words, palette.dim)
@@ -311,7 +331,7 @@ pub(super) fn speed(
     });
     let Some(bow) = bow else { return };
     let [x, y] = camera.points(outline.at + bow);
-    let words = format!("{} {}/s", significant(v[0], 2), camera.unit);
+    let words = format!("{} {}/s", significant(v[0], 3), camera.unit);
     let (at, palette) = ([x + 14.0, y - 12.0], moment.palette);
     let label = text(palette, at, Align::Left, 14.0, palette.text, words);
     let [left, right] = span(&label);
@@ -336,9 +356,49 @@ fn span(label: &Label) -> [f32; 2] {
     [left, left + width]
 }
 
+/// Marks a paused stage by two bars above its scale bar.
+pub(super) fn pause(picture: &mut Picture, studio: &Studio, stage: Rect) {
+    let is_paused = match studio.loop_lab() {
+        Some(_) => !studio.running(),
+        None => !studio.deck.runs_or_rests(studio.display().motion),
+    };
+    let [width, height] = stage.size();
+    if !is_paused || width < breakpoints::PAUSE[0].into() || height < breakpoints::PAUSE[1].into() {
+        return;
+    }
+    let palette = studio.display().theme.palette();
+    let [right, bottom] = [stage.max[0] - 12.0, stage.max[1] - 36.0];
+    let sign = Rect { min: [right - PAUSE, bottom - PAUSE], max: [right, bottom] };
+    plate(picture, sign, fade(palette.text, 0.5), stage, palette);
+    let middle = right - PAUSE / 2.0;
+    for x in [middle - 8.0, middle + 2.5] {
+        let bar = rounded([x, sign.min[1] + 9.0], [x + 5.5, sign.max[1] - 9.0], 1.5);
+        picture.pen(stage).fill(&bar, palette.text);
+    }
+}
+
+/// Describes the futures at the foot of the cell, under their threads.
+pub(super) fn futures(picture: &mut Picture, rect: Rect, studio: &Studio, palette: &Palette) {
+    let Some([left, _]) = caption_place(rect) else { return };
+    let of = if studio.deck.offered() > 1 { " under each method" } else { "" };
+    let words = format!("the next second{of}, a dot a tick");
+    let width = LETTER * words.chars().count() as f32;
+    let middle = (rect.min[0] + rect.max[0]) / 2.0;
+    if width <= rect.max[0] - left {
+        let at = [middle.max(left + width / 2.0), rect.max[1] - 10.0];
+        picture.labels.push(text(palette, at, Align::Centre, 12.5, palette.text, words));
+    }
+}
+
 fn caption_place(rect: Rect) -> Option<[f32; 2]> {
     let fits = (0..2).all(|axis| rect.max[axis] - rect.min[axis] >= breakpoints::CAPTION[axis]);
     fits.then_some([rect.min[0] + 9.0 + inset(rect), rect.min[1] + 13.0])
+}
+
+/// Height below which marks keep clear of the words at the head of a cell.
+pub(super) fn foot_of_head(rect: Rect) -> f32 {
+    let head = caption_place(rect).map_or(4.0, |_| CHIP);
+    rect.min[1] + head
 }
 
 /// The verdict on the method, on one line.
@@ -419,7 +479,21 @@ pub(super) fn write_comparison(
     }
 }
 
-/// Names a ghost in its colour, `beside` points from its middle: below it at a free side, or else above it.
+/// Reports that the run differs from its recording.
+pub(super) fn write_failed_check(
+    picture: &mut Picture,
+    rect: Rect,
+    Checked { tick, lane, .. }: Checked,
+    palette: &Palette,
+) {
+    let Some([x, _]) = caption_place(rect) else { return };
+    let words = format!("not the same run: tick {tick}, lane {lane}");
+    let at = [x, rect.max[1] - FAILED];
+    picture.labels.push(text(palette, at, Align::Left, 13.5, palette.bad, words));
+}
+
+/// Names a ghost in its colour, `beside` points from its middle: below it at a free side, or else above it. On a chart
+/// recorder, trails hang below it, so that above comes first.
 pub(super) fn ghost_name(
     picture: &mut Picture,
     camera: &Camera,
@@ -437,9 +511,15 @@ pub(super) fn ghost_name(
     if x + beside + width > max[0] {
         sides.reverse();
     }
-    let [below, above] = [(y + beside + 6.0).min(max[1] - 8.0), y - beside - 6.0];
+    let is_recorded = camera.quay_m != 0.0;
+    let up = if is_recorded { 0.7 * beside + 8.0 } else { beside + 6.0 };
+    let [below, above] = [(y + beside + 6.0).min(max[1] - 8.0), y - up];
     let is_above_free = above > min[1] + CHIP;
-    for ((way, align), at_y) in [(sides[0], below), (sides[0], above), (sides[1], below)] {
+    let mut places = [(sides[0], below), (sides[0], above), (sides[1], below)];
+    if is_recorded {
+        places.swap(0, 1);
+    }
+    for ((way, align), at_y) in places {
         let at = [x + way * (beside + 8.0), at_y];
         let label = text(palette, at, align, 12.0, colour, name.to_owned());
         let [left, right] = span(&label);
@@ -570,7 +650,7 @@ mod tests {
         (0..60).for_each(|_| studio.tick());
         let promise = Some("should keep to ±1 m".to_owned());
         assert_eq!(beside_name_of(&studio, 780.0), promise);
-        assert_eq!(beside_name_of(&studio, 380.0), None, "no room for both");
+        assert_eq!(beside_name_of(&studio, 300.0), None, "no room for both");
         let lane = studio.selected().id;
         let mut in_narrow = 0;
         for power in -20..30 {
@@ -592,16 +672,19 @@ mod tests {
             let labels = compose(studio, size).labels.into_iter().map(|label| label.text);
             labels.filter(|text| text.contains("blow")).collect()
         };
-        for (ticks, wide, narrow) in
-            [(0, "blows up · at 4.14 s", "blows up"), (20, "blows up · at 4.48 s", "blows up")]
-        {
+        for ticks in [0, 20] {
             let mut studio = Studio::new(Scene::built_in("stiff").unwrap());
             (0..ticks).for_each(|_| studio.tick());
             studio.apply(StageCommand::TickHz(49.into()));
             studio.analyse();
             (0..20).for_each(|_| studio.tick());
-            assert_eq!(words(&studio, [960.0, 560.0]), [wide], "changed at {ticks}");
-            assert_eq!(words(&studio, [470.0, 330.0]), [narrow], "changed at {ticks}");
+            let [wide, narrow] = [[960.0, 560.0], [470.0, 330.0]].map(|size| words(&studio, size));
+            (0..300).for_each(|_| studio.tick());
+            let halt = studio.selected().lane.bodies()[0].halted().expect("it blows up");
+            assert!((4.0..5.0).contains(&halt.t), "changed at {ticks}: {}", halt.t);
+            let at = significant(halt.t, 3);
+            assert_eq!(wide, [format!("blows up · at {at} s")], "changed at {ticks}");
+            assert_eq!(narrow, ["blows up"], "changed at {ticks}");
         }
     }
 }

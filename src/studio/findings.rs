@@ -20,9 +20,9 @@ use crate::sim::bodies::{Parameter, Range, TakesEffect};
 pub fn analysis_request(deck: &Deck, viewer: &Viewer) -> AnalysisRequest {
     let flown = deck.race().entrants().iter().map(|lane| deck.entry(lane) + 1);
     let first = flown.max().unwrap_or_default().max(deck.offered());
-    let entries = match deck.mode() {
-        Mode::Solo => &deck.entries()[..first],
-        Mode::Race => deck.entries(),
+    let count = match deck.mode() {
+        Mode::Solo => first,
+        Mode::Race => deck.entries().len(),
     };
     let checkpoints = deck.run().checkpoints();
     let by_hand = Interventions::in_race(deck.race(), checkpoints);
@@ -30,9 +30,14 @@ pub fn analysis_request(deck: &Deck, viewer: &Viewer) -> AnalysisRequest {
     let entries = entries.iter().enumerate().map(|(entry, spec)| (*spec, lane(entry)));
     AnalysisRequest {
         scene: Arc::clone(&deck.run.next().scene),
+<<<<<<< HEAD
         advised: Interventions::for_advice(deck.race(), checkpoints),
         entries: entries.collect(),
         by_hand,
+=======
+        by_hand: Interventions::in_race(deck.race(), deck.run().checkpoints()),
+        entries: (0..count).map(|entry| deck.spec(entry)).collect(),
+>>>>>>> main
         first,
         tick_hz: deck.clock.tick_hz(),
         advice: (viewer.display().instrument == Instrument::Advice)
