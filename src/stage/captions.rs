@@ -19,6 +19,8 @@ use crate::studio::{pace_in_words, shown_state, shown_truth};
 const BAR_MARGIN: f32 = 130.0;
 /// Height of a chip, in points.
 const CHIP: f32 = 27.0;
+/// Distance (points) between the two lines beside a lane.
+const LINE: f32 = 16.0;
 /// Upper bounds of the mean letter width (points): in a body's name, in a verdict, and in other words at a cell's
 /// head.
 const NAME_LETTER: f32 = 8.5;
@@ -33,8 +35,13 @@ const MAX_FOR_LANES: f32 = 0.28;
 const LANE_INSET: f32 = 8.0;
 /// Room (points) of a ghost's name besides its letters.
 const BESIDE_NAME: f32 = 18.0;
+<<<<<<< HEAD
+/// Distance (points) between the verdicts of two lanes.
+const BETWEEN_LANES: f32 = 14.0;
+=======
 /// Side of the sign of a pause, in points.
 const PAUSE: f32 = 34.0;
+>>>>>>> main
 /// Height (points) of an answer's lines above the foot of a cell, clear of the halts there.
 const ANSWER: [f32; 2] = [60.0, 44.0];
 /// Height (points) of a failed check above the foot of a cell, over the lines of an answer.
@@ -100,10 +107,18 @@ pub(super) fn lane(picture: &mut Picture, rect: Rect, moment: &DrawContext<'_>, 
         [body] => body.halted(),
         _ => None,
     };
-    let y = if alone.is_some() { middle - 8.0 } else { middle };
-    write(y, colour, name);
+    let verdict = studio.viewer.verdict_from_here(&studio.deck, entry);
+    let verdict = verdict.and_then(|verdict| Chip::of(moment, verdict.body, entrant));
+    let verdict = verdict.filter(|_| rect.max[1] - rect.min[1] >= 2.0 * LINE);
+    let is_under = alone.is_some() || verdict.is_some();
+    write(if is_under { middle - LINE / 2.0 } else { middle }, colour, name);
     if let Some(halt) = alone {
-        write(middle + 8.0, moment.palette.bad, fate_within(halt, right - left));
+        write(middle + LINE / 2.0, moment.palette.bad, fate_within(halt, right - left));
+    } else if let Some(Chip { sign, colours, verdict, brief }) = verdict {
+        let mut wordings = [Some(verdict), brief].into_iter().flatten();
+        let words = wordings.find(|words| words.chars().count() + 2 <= letters);
+        let words = words.map_or(sign.to_owned(), |words| format!("{sign} {words}"));
+        write(middle + LINE / 2.0, colours[0], words);
     }
 }
 
@@ -205,7 +220,8 @@ pub(super) fn head(
     let chip =
         Chip::of(moment, index, entrant).filter(|_| rect.max[1] - rect.min[1] >= breakpoints::CHIP);
     let room_for = |from: f32| rect.max[0] - 10.0 - from;
-    let beside_both = chip.as_ref().and_then(|chip| chip.longest_within(room_for(right)));
+    let beside_both = chip.as_ref().filter(|chip| chip.width() <= room_for(right));
+    let beside_both = beside_both.and_then(|chip| chip.longest_within(room_for(right)));
     let alone = chip.as_ref().and_then(|chip| chip.longest_within(room_for(left)));
     // The chip of a halted body already reports the halt.
     if right <= rect.max[0] && (beside_both.is_some() && body.halted().is_none() || alone.is_none())
@@ -215,6 +231,55 @@ pub(super) fn head(
     }
     if let Some(chip) = beside_both.or(alone) {
         chip.draw(picture, rect, moment.palette);
+    }
+}
+
+/// Writes the verdicts of a race at the head of a cell: that on the lane in front as a chip, and before it the sign and
+/// the number of each other lane, with its words if there is room for all.
+pub(super) fn verdicts(
+    picture: &mut Picture,
+    rect: Rect,
+    moment: &DrawContext<'_>,
+    index: usize,
+    (entrants, front): (&[&Entrant], &Entrant),
+) {
+    if rect.max[1] - rect.min[1] < breakpoints::CHIP || caption_place(rect).is_none() {
+        return;
+    }
+    let left = name_room(rect, moment, index).map_or(rect.min[0] + 10.0, |name| name.max[0] + 10.0);
+    let (mut right, y) = (rect.max[0] - 10.0, rect.min[1] + 4.0 + CHIP / 2.0);
+    let chip = Chip::of(moment, index, front).and_then(|chip| chip.longest_within(right - left));
+    if let Some(chip) = chip {
+        right -= chip.width() + 12.0;
+        chip.draw(picture, rect, moment.palette);
+    }
+    let others = entrants.iter().filter(|lane| lane.id != front.id);
+    let others = others
+        .filter_map(|lane| Some((moment.studio.entry(lane) + 1, Chip::of(moment, index, lane)?)));
+    let others: Vec<(usize, Chip)> = others.collect();
+    let all = |words: fn(&Chip) -> &str| {
+        let one = |(number, chip): &(usize, Chip)| {
+            let words = words(chip);
+            let space = if words.is_empty() { "" } else { " " };
+            format!("{number} {}{space}{words}", chip.sign)
+        };
+        others.iter().map(one).collect::<Vec<_>>()
+    };
+    let widths = |all: &[String]| -> Vec<f32> {
+        all.iter().map(|words| LETTER * words.chars().count() as f32 + BETWEEN_LANES).collect()
+    };
+    let wordings: [fn(&Chip) -> &str; 3] =
+        [|chip| &chip.verdict, |chip| chip.brief.as_ref().unwrap_or(&chip.verdict), |_| ""];
+    let fits = |all: &Vec<String>| widths(all).iter().sum::<f32>() <= right - left;
+    let all = wordings.into_iter().map(all).find(fits).unwrap_or_else(|| all(wordings[2]));
+    for (((_, chip), words), width) in others.iter().zip(&all).zip(widths(&all)).rev() {
+        if right - width < left {
+            return;
+        }
+        right -= width;
+        let at = [right, y];
+        let colour = chip.colours[0];
+        picture.labels.push(text(moment.palette, at, Align::Left, 12.5, colour, words.clone()));
     }
 }
 
@@ -347,34 +412,29 @@ struct Chip {
 }
 
 impl Chip {
-    /// The chip of a body whose method is inaccurate.
+    /// The chip of a body under a lane's method, if its verdict is known.
     fn of(moment: &DrawContext<'_>, index: usize, entrant: &Entrant) -> Option<Self> {
-        let entry = moment.studio.entry(entrant);
-        let verdict = moment.studio.viewer.verdict(entry)?;
-        let palette = moment.palette;
+        let studio = moment.studio;
+        let entry = studio.entry(entrant);
         let halt = entrant.lane.bodies()[index].halted();
+        let verdict = studio.viewer.verdict_from_here(&studio.deck, entry)?;
         let outcome = halt.map_or(verdict.outcome(), Outcome::of_halt);
         let severity = outcome.severity();
-        if verdict.body != index || matches!(severity, Severity::Fine | Severity::Unknown) {
+        if verdict.body != index || severity == Severity::Unknown {
             return None;
         }
-        // The run on the screen differs from the judged one.
-        let is_other = moment.studio.deck.is_judged_apart();
-        let viewer = &moment.studio.viewer;
-        let is_current = viewer.is_judged_at(entry, moment.studio.clock().tick_hz());
-        let tone = palette.of_severity(severity);
+        let is_current = studio.viewer.is_judged_now(&studio.deck, entry);
+        let tone = moment.palette.of_severity(severity);
+        let mut wordings = verdict.wordings(false).into_iter();
+        let words = halt.map(Halt::fate).or_else(|| wordings.next())?;
         Some(Self {
             sign: outcome.sign().glyph(),
             colours: [
                 if is_current || halt.is_some() { tone } else { fade(tone, STALE) },
                 moment.style(entry).0,
             ],
-            verdict: match halt {
-                Some(halt) => halt.fate(),
-                None if is_other => verdict.wordings_of_another_run(false)[0].clone(),
-                None => verdict.wordings(false)[0].clone(),
-            },
-            brief: verdict.fails_in_brief().filter(|_| is_other && halt.is_none()),
+            verdict: words,
+            brief: halt.map(|halt| halt.ending().into()).or_else(|| wordings.next()),
         })
     }
 
@@ -590,7 +650,7 @@ mod tests {
         (0..60).for_each(|_| studio.tick());
         let promise = Some("should keep to ±1 m".to_owned());
         assert_eq!(beside_name_of(&studio, 780.0), promise);
-        assert_eq!(beside_name_of(&studio, 430.0), None, "no room for both");
+        assert_eq!(beside_name_of(&studio, 300.0), None, "no room for both");
         let lane = studio.selected().id;
         let mut in_narrow = 0;
         for power in -20..30 {
@@ -607,134 +667,24 @@ mod tests {
     }
 
     #[test]
-    fn the_chip_of_an_edited_run_marks_the_verdict_as_another_runs() {
+    fn the_chip_of_an_edited_run_is_of_what_follows_the_edit() {
         let words = |studio: &Studio, size| -> Vec<String> {
             let labels = compose(studio, size).labels.into_iter().map(|label| label.text);
             labels.filter(|text| text.contains("blow")).collect()
         };
-        for (ticks, wide, narrow) in [
-            (0, "blows up · at 4.14 s", "blows up · at 4.14 s"),
-            (20, "if run from the start: blows up · at 4.14 s", "blows up, if run from the start"),
-        ] {
+        for ticks in [0, 20] {
             let mut studio = Studio::new(Scene::built_in("stiff").unwrap());
             (0..ticks).for_each(|_| studio.tick());
             studio.apply(StageCommand::TickHz(49.into()));
             studio.analyse();
             (0..20).for_each(|_| studio.tick());
-            assert_eq!(words(&studio, [960.0, 560.0]), [wide], "changed at {ticks}");
-            assert_eq!(words(&studio, [470.0, 330.0]), [narrow], "changed at {ticks}");
-        }
-    }
-
-    /// Whether the picture has the two bars of a pause at its foot.
-    fn has_sign_of_pause(studio: &Studio, size: [f32; 2]) -> bool {
-        let is_bar = |corners: &[([f32; 2], Rgba)]| {
-            let right = corners.iter().map(|(at, _)| at[0]).fold(f32::MIN, f32::max);
-            let left = corners.iter().map(|(at, _)| at[0]).fold(f32::MAX, f32::min);
-            right - left < 7.0 && left > size[0] - 60.0
-        };
-        let shapes = compose(studio, size).shapes;
-        let bars = shapes.iter().filter(|shape| match shape {
-            crate::stage::Shape::Fill(fill) => is_bar(&fill.corners),
-            crate::stage::Shape::Path(_) => false,
-        });
-        bars.count() == 2
-    }
-
-    #[test]
-    fn a_pause_is_marked_in_every_mode_and_a_rest_is_not() {
-        use crate::loops::loop_lab::LoopCommand;
-        use crate::studio::{Command, Motion, Step};
-        let size = [960.0, 560.0];
-        let prepared: [Option<Command>; 4] = [
-            None,
-            Some(StageCommand::ToggleRace.into()),
-            Some(LoopCommand::ToggleLab.into()),
-            Some(ViewCommand::ToggleMeasure.into()),
-        ];
-        let pauses: [Command; 3] = [
-            ViewCommand::TogglePause.into(),
-            ViewCommand::ToggleFutures.into(),
-            StageCommand::Tick(Step::Next).into(),
-        ];
-        for (prepare, pause) in prepared.iter().flat_map(|it| pauses.iter().map(move |p| (it, p))) {
-            let mut studio = Studio::new(Scene::built_in("harbour").unwrap());
-            studio.viewer.preferences.display.motion = Motion::Live;
-            prepare.iter().for_each(|command| _ = studio.apply(command.clone()));
-            assert!(!has_sign_of_pause(&studio, size), "{prepare:?}");
-            studio.apply(pause.clone());
-            assert!(has_sign_of_pause(&studio, size), "{prepare:?}, {pause:?}");
-            assert!(!has_sign_of_pause(&studio, [150.0, 100.0]), "no room");
-        }
-        let mut studio = Studio::new(Scene::built_in("spring").unwrap());
-        studio.viewer.preferences.display.motion = Motion::Live;
-        while studio.running() {
-            studio.advance(16_666_667);
-        }
-        assert!(!has_sign_of_pause(&studio, size), "a hint speaks of the end");
-    }
-
-    #[test]
-    fn the_fan_says_what_it_shows_on_the_stage_and_how_it_closes() {
-        use crate::studio::shows_futures;
-        let says = |studio: &Studio| {
-            let labels = compose(studio, [960.0, 560.0]).labels;
-            let is_it = |label: &&Label| label.text.starts_with("the next second");
-            labels.iter().filter(is_it).map(|label| label.text.clone()).collect::<Vec<_>>()
-        };
-        let expected = ["the next second under each method, a dot a tick"];
-        for scene in ["harbour", "pendulum", "spring"] {
-            let mut studio = Studio::new(Scene::built_in(scene).unwrap());
-            (0..20).for_each(|_| studio.tick());
-            assert_eq!(says(&studio), Vec::<String>::new());
-            studio.apply(ViewCommand::ToggleFutures);
-            assert_eq!(says(&studio), expected, "{scene}");
-            let hint = studio.hint().unwrap();
-            assert!(hint.contains("`F`") && hint.contains("`Esc`"), "{hint}");
-            studio.apply(ViewCommand::Escape);
-            assert!(!shows_futures(&studio) && says(&studio).is_empty(), "{scene}");
-            studio.apply(ViewCommand::TogglePause);
-            studio.apply(ViewCommand::PointerDown(true));
-            studio.apply(ViewCommand::HoldTickRate);
-            studio.apply(StageCommand::TickHz(12.into()));
-            assert_eq!(says(&studio), expected, "{scene}");
-            assert!(studio.hint().unwrap().starts_with("Let go"), "{scene}");
-        }
-    }
-
-    #[test]
-    fn landmarks_slow_time_only_at_real_time_and_the_caption_says_a_set_speed() {
-        use crate::studio::{Motion, pace_in_words};
-        for (percent, words) in
-            [(100, "slowed ×"), (25, "at ¼× speed"), (400, "at 4× speed"), (1600, "at 16× speed")]
-        {
-            let mut studio = Studio::new(Scene::built_in("stiff").unwrap());
-            studio.viewer.preferences.display.motion = Motion::Live;
-            studio.viewer.preferences.display.measure = false;
-            studio.apply(StageCommand::TickHz(49.into()));
-            studio.apply(RunCommand::SpeedPercent(percent));
-            let (mut frames, mut said) = (0, Vec::new());
-            while studio.running() && frames < 6000 {
-                studio.advance(16_666_667);
-                let captions = compose(&studio, [960.0, 560.0]).labels.into_iter();
-                let captions = captions.map(|label| label.text);
-                said.extend(
-                    captions.filter(|text| text.contains("speed") || text.contains("slow")),
-                );
-                frames += 1;
-            }
-            assert!(!said.is_empty(), "{percent}");
-            assert!(said.iter().all(|said| said.contains(words)), "{percent}: {said:?}");
-            let (real_s, t) = (f64::from(frames) / 60.0, studio.race().t());
-            let set_s = t / (f64::from(percent) / 100.0);
-            match percent {
-                100 => assert!((1.2 * set_s..99.0).contains(&real_s), "{real_s} s for {t} s"),
-                _ => assert!((real_s - set_s).abs() < 0.1, "{real_s} s at {percent} %"),
-            }
-            studio.apply(ViewCommand::ToggleMeasure);
-            let labels = compose(&studio, [960.0, 560.0]).labels;
-            assert!(!labels.iter().any(|label| label.text.contains("speed")), "the bar says it");
-            assert_eq!(pace_in_words(&studio.deck, &studio.viewer).is_some(), percent != 100);
+            let [wide, narrow] = [[960.0, 560.0], [470.0, 330.0]].map(|size| words(&studio, size));
+            (0..300).for_each(|_| studio.tick());
+            let halt = studio.selected().lane.bodies()[0].halted().expect("it blows up");
+            assert!((4.0..5.0).contains(&halt.t), "changed at {ticks}: {}", halt.t);
+            let at = significant(halt.t, 3);
+            assert_eq!(wide, [format!("blows up · at {at} s")], "changed at {ticks}");
+            assert_eq!(narrow, ["blows up"], "changed at {ticks}");
         }
     }
 }

@@ -76,8 +76,7 @@ fn overlay(
     entrants: &[&Entrant],
 ) {
     let front = moment.studio.selected();
-    let alone = (moment.studio.mode() == Mode::Solo).then_some(front);
-    let views = on_one_stage(moment, ghosts.iter().map(|ghost| ghost.view).collect(), alone);
+    let views = on_one_stage(moment, ghosts.iter().map(|ghost| ghost.view).collect(), front);
     // A ship on a straight course has its own marks.
     let has_ruler = stage.max[1] - stage.min[1] >= breakpoints::RULER
         && (!matches!(views[0].framing, Framing::Follow { .. }) || views[0].turns);
@@ -105,6 +104,8 @@ fn overlay(
         if moment.studio.mode() == Mode::Solo {
             captions::head(picture, *cell, moment, index, front);
             captions::speed(picture, &camera, moment, index, front);
+        } else {
+            captions::verdicts(picture, *cell, moment, index, (entrants, front));
         }
         let is_measured = match view.framing {
             Framing::Follow { .. } => !view.turns,
@@ -136,7 +137,8 @@ fn side_by_side(
     let bodies = ghosts.len();
     let draw = |picture: &mut Picture, cell: Rect, index: usize, entrant: &&Entrant| {
         let ghost = &ghosts[index];
-        let view = &ghost.view;
+        let views = ghosts.iter().map(|ghost| ghost.view).collect();
+        let view = &on_one_stage(moment, views, entrant)[index];
         let camera = moment.camera(cell, index, view);
         let lanes = std::slice::from_ref(entrant);
         if view.recorded_m().is_some() {
@@ -144,7 +146,8 @@ fn side_by_side(
         }
         BodyCell { moment, index, ghost, view, camera, lanes, front: entrant }.draw(picture);
         frame(picture, cell, fade(moment.palette.chart, 0.3));
-        if entrant.id == entrants[entrants.len() - 1].id {
+        let shared = moment.camera(cell, index, &ghost.view).points_per_metre;
+        if entrant.id == entrants[entrants.len() - 1].id || camera.points_per_metre != shared {
             captions::scale_bar(picture, &camera, moment.palette);
         }
     };

@@ -397,6 +397,8 @@ mod tests {
     fn badges_never_cover_springs_and_flags_never_cover_names() {
         let mut studio = Studio::new(Scene::with_two_springs());
         studio.apply(StageCommand::ToggleRace);
+        // The stage follows the selected lane, so that the badges are of the others.
+        studio.apply(StageCommand::Pick(1));
         let (mut badges, mut beside) = (0, 0);
         for _ in 0..300 {
             studio.tick();

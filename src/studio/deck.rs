@@ -268,11 +268,6 @@ impl Deck {
         rows.iter().any(|row| row.tick > 0 && row.author == Author::Person)
     }
 
-    /// Whether the run on the screen has changed since it was judged, so that the verdicts describe another run.
-    pub fn is_judged_apart(&self) -> bool {
-        self.run().checkpoints().was_changed_since_judged(self.race())
-    }
-
     /// Returns the menu indices of the lanes with a cloud. They are all lanes, or if there are too many, the first ones
     /// and the selected one.
     pub(super) fn clouded_lanes(&self) -> impl Iterator<Item = usize> {

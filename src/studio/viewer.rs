@@ -3,7 +3,7 @@
 use super::command::{
     Command, RunCommand, SCALE_LADDER, StageCommand, USUAL_SCALE_PERCENT, ViewCommand,
 };
-use super::deck::LeftRun;
+use super::deck::{Deck, LeftRun};
 use super::display::{Arrangement, Display, Motion, Pace, Splits, View};
 use super::guide::{Hints, Tour};
 use super::instrument::Instrument;
@@ -252,11 +252,22 @@ impl Viewer {
         self.judged(entry).filter(|_| !self.is_asked())
     }
 
-    /// Whether the verdict on the method with this menu index was found at this tick rate. After a change of the rate,
+    /// Like [`verdict`](Self::verdict), if it begins at the last change of the run. An earlier one says nothing about
+    /// what follows.
+    pub fn verdict_from_here(&self, deck: &Deck, entry: MenuIndex) -> Option<&Verdict> {
+        let starts_at_s = deck.run().checkpoints().verdicts_start_at_s();
+        self.verdict(entry).filter(|verdict| verdict.starts_at_s == starts_at_s)
+    }
+
+    /// Whether the verdict on the method with this menu index is of the run as it is now. After a change of the rate,
     /// a verdict at the old rate stays until the next one is found.
-    pub fn is_judged_at(&self, entry: MenuIndex, tick_hz: TickRate) -> bool {
+    pub fn is_judged_now(&self, deck: &Deck, entry: MenuIndex) -> bool {
         let found = self.findings.as_ref();
-        found.is_some_and(|found| found.request.tick_hz == tick_hz && entry < found.judged)
+        found.is_some_and(|Findings { request, judged, .. }| {
+            request.tick_hz == deck.clock().tick_hz()
+                && request.by_hand.are_last(deck.run().checkpoints())
+                && entry < *judged
+        })
     }
 
     /// Returns the same as [`verdict`](Self::verdict), but also while a person is asked for a prediction.

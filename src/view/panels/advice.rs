@@ -1,5 +1,5 @@
-//! Advice on the method for the scene at its tick rate: the recommendations so far, and below them a table of the
-//! findings on every method.
+//! Advice on the method for the scene at its tick rate: one recommendation, its source code, and a table of the findings
+//! on every method.
 
 use std::sync::Arc;
 
@@ -13,7 +13,7 @@ use super::parts::{is_picture, tone};
 use super::table::{Column, GAP, MARGIN, SortKey, Table, TableRow, show_name};
 use crate::measure::{
     Advice, AdvisedBodies, CRITERIA, Criterion, CriterionMet, CriterionResult,
-    MAX_ADVISED_SUBSTEPS, MethodAdvice, PassedOver, Recommendation, recommended,
+    MAX_ADVISED_SUBSTEPS, MethodAdvice, PassedOver, Recommendation,
 };
 use crate::scene::LaneSpec;
 use crate::stage::number::{counted, significant};
@@ -32,9 +32,9 @@ const SMALL: f32 = 11.5;
 const LINE: f32 = 20.0;
 const APART: f32 = 6.0;
 const MIN_NAME: f32 = 120.0;
-/// Share of the height below the recommendations for the source code.
+/// Share of the height below the recommendation for the source code.
 const CODE_PART: f32 = 0.5;
-/// Width of the names of the criteria beside their recommendations, in points.
+/// Width of the name of the criterion beside the recommendation, in points.
 const CRITERION: f32 = 76.0;
 
 pub(super) fn show(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) {
@@ -44,18 +44,22 @@ pub(super) fn show(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) {
         cut_line(ui, RichText::new("judging every method …").color(palette(ui).dim));
         return;
     };
-    let best: Vec<_> = (0..CRITERIA.len()).map(|i| recommended_method(advice, i)).collect();
-    show_recommendations(ui, studio, advice, &best, commands);
+    let best = advice.to_take();
+    show_recommendation(ui, studio, advice, commands);
     ui.separator();
-    if ui.available_height() >= breakpoints::CODE && !is_picture(ui) {
-        code(ui, studio, commands);
+    if advice.is_decided && ui.available_height() >= breakpoints::CODE && !is_picture(ui) {
+        let taken = best.and_then(|(row, criterion)| {
+            let MethodAdvice { spec, met, .. } = &advice.advised[row];
+            Some(LaneSpec { substeps: met[criterion].met()?.substeps, ..*spec })
+        });
+        code(ui, studio, taken.unwrap_or(studio.selected().spec));
         ui.separator();
     }
     let whose = match advice.bodies {
         AdvisedBodies::All if studio.scene().bodies.len() > 1 => ", all bodies",
         _ => "",
     };
-    table(ui, advice, whose, &best, commands);
+    table(ui, advice, whose, best, commands);
 }
 
 /// Shows the choice between all bodies and the selected one, if the scene has several bodies.
@@ -79,11 +83,6 @@ fn which_bodies(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) {
     });
 }
 
-/// Returns the index of the recommended method for a criterion.
-fn recommended_method(advice: &Advice, criterion: usize) -> Option<usize> {
-    recommended(&advice.advised, criterion)
-}
-
 /// Shows a line of text, truncated where it would widen the panel.
 fn cut_line(ui: &mut Ui, text: RichText) -> Response {
     ui.add(Label::new(text).truncate())
@@ -99,20 +98,14 @@ fn in_slot<R>(ui: &mut Ui, width: f32, content: impl FnOnce(&mut Ui) -> R) -> R 
     place.inner
 }
 
-/// Recommends a method for each criterion, from the methods judged so far.
-fn show_recommendations(
-    ui: &mut Ui,
-    studio: &Studio,
-    advice: &Advice,
-    best: &[Option<usize>],
-    commands: &mut Vec<Command>,
-) {
-    let (done, wanted) = (advice.advised.len(), advice.wanted);
-    let told = match done < wanted {
-        true => {
-            format!("At {:.3} Hz, the best of {done} of {wanted} methods judged:", advice.tick_hz)
-        }
-        false => format!("At {:.3} Hz, take:", advice.tick_hz),
+/// Recommends one method once the search has ended. Until then no name and no button is shown, because another method
+/// may take its place.
+fn show_recommendation(ui: &mut Ui, studio: &Studio, advice: &Advice, commands: &mut Vec<Command>) {
+    let (done, wanted, hz) = (advice.advised.len(), advice.wanted, advice.tick_hz);
+    let told = match advice.is_decided {
+        true => format!("At {hz:.3} Hz, take:"),
+        false if done < wanted => format!("At {hz:.3} Hz: {done} of {wanted} methods judged …"),
+        false => format!("At {hz:.3} Hz: searching reserves …"),
     };
     ui.horizontal(|ui| {
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
@@ -122,38 +115,36 @@ fn show_recommendations(
             });
         });
     });
-    for (i, (criterion, best)) in CRITERIA.iter().zip(best).enumerate() {
-        let taken = best.and_then(|row| {
-            let advised = &advice.advised[row];
-            Some((advised, advised.met[i].met()?))
-        });
-        ui.horizontal(|ui| {
-            ui.spacing_mut().item_spacing.x = APART;
-            let name = RichText::new(criterion.name()).color(palette(ui).dim);
-            in_slot(ui, CRITERION, |ui| cut_line(ui, name)).on_hover_text(criterion.about());
-            let Some((advised, met)) = taken else {
-                let all_miss = advice.advised.iter().all(|row| row.met[i] == CriterionResult::No);
-                let none = if done < wanted {
-                    "none yet".to_owned()
-                } else if all_miss {
-                    format!("none with up to {MAX_ADVISED_SUBSTEPS} substeps")
-                } else {
-                    "not known".into()
-                };
-                cut_line(ui, RichText::new(none).color(palette(ui).text));
-                return;
+    if !advice.is_decided {
+        return;
+    }
+    let taken = advice.to_take().and_then(|(row, criterion)| {
+        let advised = &advice.advised[row];
+        Some((advised, criterion, advised.met[criterion].met()?))
+    });
+    ui.horizontal(|ui| {
+        ui.spacing_mut().item_spacing.x = APART;
+        let Some((advised, criterion, met)) = taken else {
+            let is_missed = |row: &MethodAdvice| row.met.contains(&CriterionResult::No);
+            let none = match advice.advised.iter().all(is_missed) {
+                true => format!("none with up to {MAX_ADVISED_SUBSTEPS} substeps"),
+                false => "not known".into(),
             };
-            ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-                copy_button(ui, studio, advised.spec, commands);
-                ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
-                    let recommendation = Recommendation::of(&advice.advised, i);
-                    let instead_of = recommendation.and_then(|it| it.instead_of);
-                    let colour = tone(ui, advised.outcome_with(met.substeps));
-                    taken_line(ui, (advised.spec.method.name, colour), met, instead_of.as_ref());
-                });
+            cut_line(ui, RichText::new(none).color(palette(ui).text));
+            return;
+        };
+        let name = RichText::new(CRITERIA[criterion].name()).color(palette(ui).dim);
+        in_slot(ui, CRITERION, |ui| cut_line(ui, name)).on_hover_text(CRITERIA[criterion].about());
+        ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+            copy_button(ui, studio, advised.spec, commands);
+            ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
+                let recommendation = Recommendation::of(&advice.advised, criterion);
+                let instead_of = recommendation.and_then(|it| it.instead_of);
+                let colour = tone(ui, advised.outcome_with(met.substeps));
+                taken_line(ui, (advised.spec.method.name, colour), met, instead_of.as_ref());
             });
         });
-    }
+    });
 }
 
 /// Shows a method and its substeps in this colour, with a mark if the substeps leave no reserve. The name is truncated
@@ -216,9 +207,9 @@ fn copy_button(ui: &mut Ui, studio: &Studio, spec: LaneSpec, commands: &mut Vec<
     response.context_menu(|ui| super::lanes::menu(ui, studio, entry, commands));
 }
 
-/// Shows the method on the stage as source code, and the number of its calls at this tick rate.
-fn code(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) {
-    let (spec, language) = (studio.selected().spec, studio.viewer.language());
+/// Shows a method as source code, and the number of its calls at this tick rate.
+fn code(ui: &mut Ui, studio: &Studio, spec: LaneSpec) {
+    let language = studio.viewer.language();
     let id = Id::unique(("code", spec.method.id, language.id()));
     let known = ui.data(|data| data.get_temp::<Arc<str>>(id));
     let text = known.unwrap_or_else(|| {
@@ -229,7 +220,6 @@ fn code(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) {
     });
     ui.horizontal(|ui| {
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-            copy_button(ui, studio, spec, commands);
             let hz = studio.clock().tick_hz().scaled(spec.substeps, 1);
             let calls = counted(spec.substeps, "call");
             let called = format!("{}: {calls} a tick, h = 1/{hz:.3} s", spec.method.name);
@@ -270,7 +260,7 @@ fn table(
     ui: &mut Ui,
     advice: &Advice,
     whose: &str,
-    best: &[Option<usize>],
+    best: Option<(usize, usize)>,
     commands: &mut Vec<Command>,
 ) {
     let (width, has_rates) = cell_width(ui, advice, ui.available_width());
@@ -310,7 +300,8 @@ fn table(
 struct Row<'a> {
     advised: &'a MethodAdvice,
     index: usize,
-    best: &'a [Option<usize>],
+    /// The recommended method and the criterion that it meets.
+    best: Option<(usize, usize)>,
     has_rates: bool,
 }
 
@@ -335,7 +326,7 @@ impl Row<'_> {
                 return;
             }
         };
-        let is_best = self.best[criterion] == Some(self.index);
+        let is_best = self.best == Some((self.index, criterion));
         let of_lane = tone(&ui, self.advised.outcome_with(met.substeps));
         let colour = if is_best { of_lane } else { palette(&ui).text };
         let text = cell_text(met, self.has_rates);
@@ -448,6 +439,14 @@ mod tests {
         }
     }
 
+    /// Works until the recommendation is final.
+    fn decide(studio: &mut Studio, worker: &mut AnalysisWorker) {
+        while studio.viewer.advice().is_none_or(|advice| !advice.is_decided) {
+            worker.work();
+            accept_findings(&mut studio.deck, &mut studio.viewer, worker.findings());
+        }
+    }
+
     /// Works until `count` methods are judged.
     fn judge(studio: &mut Studio, worker: &mut AnalysisWorker, count: usize) {
         while studio.viewer.advice().is_none_or(|advice| advice.advised.len() < count) {
@@ -459,14 +458,13 @@ mod tests {
     #[test]
     fn every_column_is_fully_visible_and_the_stage_keeps_its_room() {
         let (mut studio, mut worker) = asked("spring", false);
-        let wanted = studio.scene().methods_for_games().count();
-        judge(&mut studio, &mut worker, wanted);
+        decide(&mut studio, &mut worker);
         for size in SIZES {
             let (stage, texts) = shown(&studio, size);
             let stage_to = size[0] * (1.0 - panels::INSTRUMENTS);
             assert!((stage.right() - stage_to).abs() < 1.0, "{size:?}: {stage:?}");
             for criterion in &CRITERIA {
-                // The name of the criterion also appears above the table, before its recommendation.
+                // The name of a criterion may also appear above the table, before the recommendation.
                 let at = texts.iter().filter(|(_, text)| text == criterion.name());
                 let head = at.map(|(at, _)| *at).max_by(|a, b| a.y.total_cmp(&b.y));
                 let head = head.unwrap_or_else(|| panic!("{size:?}: {texts:?}"));
@@ -476,9 +474,10 @@ mod tests {
                 assert!(texts.iter().any(|text| is_under(&text)), "{size:?}: {head:?} {texts:?}");
                 let taken = |(at, text): &&(Pos2, String)| text.starts_with('×') && at.y < head.y;
                 let taken = texts.iter().filter(taken).count();
-                assert_eq!(taken, CRITERIA.len(), "substeps of the answer, {size:?}: {texts:?}");
-                let is_named =
-                    |(at, text): &&(Pos2, String)| text == "Semi-implicit Euler" && at.y < head.y;
+                assert_eq!(taken, 1, "substeps of the answer, {size:?}: {texts:?}");
+                let best = studio.viewer.advice().and_then(Advice::to_take).expect("it is decided");
+                let best = studio.viewer.advice().unwrap().advised[best.0].spec.method.name;
+                let is_named = |(at, text): &&(Pos2, String)| text == best && at.y < head.y;
                 assert!(texts.iter().any(|text| is_named(&text)), "{size:?}: {texts:?}");
             }
         }
@@ -511,23 +510,41 @@ mod tests {
     }
 
     #[test]
-    fn the_answer_above_the_table_appears_with_the_first_method_and_grows() {
+    fn no_method_is_named_or_copied_before_the_search_has_ended() {
         let (mut studio, mut worker) = asked("spring", false);
-        let of = |studio: &Studio, words: &str| {
-            let (_, texts) = shown(studio, [1280.0, 720.0]);
-            let found = texts.iter().find(|(_, text)| text == words).map(|(at, _)| at.y);
-            found.unwrap_or_else(|| panic!("{words}: {texts:?}"))
-        };
         let wanted = studio.scene().methods_for_games().count();
-        let told = |done| format!("At 60 Hz, the best of {done} of {wanted} methods judged:");
+        let above = |studio: &Studio| -> Vec<String> {
+            let (stage, texts) = shown(studio, [1280.0, 800.0]);
+            let head = texts.iter().find(|(_, text)| text == "method").expect("a table").0;
+            let is_above = |(at, _): &(Pos2, String)| at.y < head.y && at.x > stage.right();
+            texts.into_iter().filter(is_above).map(|(_, text)| text).collect()
+        };
+        let names = |texts: &[String]| {
+            let is_name = |text: &&String| studio_names().contains(&&***text);
+            texts.iter().filter(is_name).count()
+        };
         judge(&mut studio, &mut worker, 1);
-        of(&studio, &told(1));
-        // Explicit Euler grows under any number of substeps.
-        of(&studio, "none yet");
-        judge(&mut studio, &mut worker, 2);
-        of(&studio, &told(2));
-        // The cells of the table have more words, so this text is the recommendation.
-        assert!(of(&studio, "×1") < of(&studio, "method"));
+        loop {
+            let texts = above(&studio);
+            let is_decided = studio.viewer.advice().is_some_and(|advice| advice.is_decided);
+            assert_eq!(names(&texts), usize::from(is_decided), "{texts:?}");
+            let copies = texts.iter().filter(|text| text.starts_with("Copy")).count();
+            assert_eq!(copies, usize::from(is_decided), "{texts:?}");
+            if is_decided {
+                break;
+            }
+            let judged = studio.viewer.advice().expect("it is asked for").advised.len();
+            let told = format!("At 60 Hz: {judged} of {wanted} methods judged …");
+            let searches =
+                judged == wanted && texts.contains(&"At 60 Hz: searching reserves …".into());
+            assert!(texts.contains(&told) || searches, "{texts:?}");
+            (0..30).for_each(|_| drop(worker.work()));
+            accept_findings(&mut studio.deck, &mut studio.viewer, worker.findings());
+        }
+    }
+
+    fn studio_names() -> Vec<&'static str> {
+        Scene::built_in("spring").unwrap().methods_for_games().map(|it| it.name).collect()
     }
 
     #[test]
@@ -550,9 +567,9 @@ mod tests {
     }
 
     #[test]
-    fn the_code_of_the_method_on_the_stage_is_shown_with_a_copy_button() {
+    fn the_code_of_the_recommended_method_is_shown_with_a_copy_button() {
         let (mut studio, mut worker) = asked("spring", false);
-        judge(&mut studio, &mut worker, 3);
+        decide(&mut studio, &mut worker);
         studio.apply(RunCommand::SetLane(LaneSpec { substeps: 2, ..studio.entries()[0] }));
         let beside = |studio: &Studio| -> Vec<String> {
             let mut window = TestWindow::new([1280.0, 800.0]);
@@ -561,12 +578,10 @@ mod tests {
         };
         let words = beside(&studio);
         let has = |words: &[String], of: &str| words.iter().any(|text| text.contains(of));
-        assert!(has(&words, "Explicit Euler: 2 calls a tick, h = 1/120 s"), "{words:?}");
-        assert!(has(&words, "pub fn explicit_euler"), "{words:?}");
-        studio.apply(StageCommand::Pick(1));
+        assert!(has(&words, "Semi-implicit Euler: 1 call a tick, h = 1/60 s"), "{words:?}");
+        assert!(has(&words, "pub fn semi_implicit_euler"), "not that on the stage: {words:?}");
         studio.apply(ViewCommand::Language(Language::CSharp));
         let words = beside(&studio);
-        assert!(has(&words, "Semi-implicit Euler: 1 call a tick, h = 1/60 s"), "{words:?}");
         assert!(has(&words, "public static void Step") && has(&words, "Copy C#"), "{words:?}");
     }
 

@@ -74,7 +74,7 @@ impl<'a> Row<'a> {
 
     /// Returns the further findings of the verdict.
     pub(super) fn details(&self) -> Vec<String> {
-        let verdict = self.studio.viewer.verdict(self.entry);
+        let verdict = self.studio.viewer.verdict_from_here(&self.studio.deck, self.entry);
         let of_row = |verdict: &'a Verdict| match self.is_of_body {
             true => verdict.of_bodies.get(self.body),
             false => Some(verdict),
