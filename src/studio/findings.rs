@@ -27,17 +27,12 @@ pub fn analysis_request(deck: &Deck, viewer: &Viewer) -> AnalysisRequest {
     let checkpoints = deck.run().checkpoints();
     let by_hand = Interventions::in_race(deck.race(), checkpoints);
     let lane = |entry| deck.lane_of(entry).map(|lane| lane.id).filter(|&id| by_hand.differ_in(id));
-    let entries = entries.iter().enumerate().map(|(entry, spec)| (*spec, lane(entry)));
+    let entries = (0..count).map(|entry| (deck.spec(entry), lane(entry)));
     AnalysisRequest {
         scene: Arc::clone(&deck.run.next().scene),
-<<<<<<< HEAD
         advised: Interventions::for_advice(deck.race(), checkpoints),
         entries: entries.collect(),
         by_hand,
-=======
-        by_hand: Interventions::in_race(deck.race(), deck.run().checkpoints()),
-        entries: (0..count).map(|entry| deck.spec(entry)).collect(),
->>>>>>> main
         first,
         tick_hz: deck.clock.tick_hz(),
         advice: (viewer.display().instrument == Instrument::Advice)
