@@ -4,7 +4,6 @@
 //! distance between that motion and the truth is added to the method's errors.
 
 use super::amplitude::Trend;
-use super::amplitude::Trend;
 use super::criterion::{FREQUENCY_TOLERANCE, TOLERANCE, VISIBLE};
 use super::judge::Judge;
 use super::truth::{BodyTruth, Swing, ticks};
@@ -59,8 +58,7 @@ async fn beside(found: Comparison, [own, truth]: [&BodyTruth; 2], tick_hz: TickR
         width,
         widths: widths.zip(swings).filter(|_| truth.energy_scale.is_some()).map(
             |((own, exact), (_, swing))| SwingWidths {
-                // The width of a swing that goes on growing is that at the start.
-                own: if found.change == Trend::None { grown * own } else { own },
+                own: grown * own,
                 truth: exact,
                 unit: truth.coordinates().at(swing.coordinate).shown_unit(),
             },

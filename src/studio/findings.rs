@@ -193,8 +193,8 @@ mod tests {
     #[test]
     fn no_swing_wider_than_exact_by_a_tenth_has_a_green_sign_after_a_change() {
         let changes: [(&str, fn(&mut Studio)); 4] = [
-            ("switch", |studio| drop(studio.apply(StageCommand::Pick(1)))),
-            ("kick", |studio| drop(studio.apply(RunCommand::Act(Action::Kick(1.0))))),
+            ("switch", |studio| _ = studio.apply(StageCommand::Pick(1))),
+            ("kick", |studio| _ = studio.apply(RunCommand::Act(Action::Kick(1.0)))),
             ("pull", |studio| {
                 let pushes = (0..studio.scene().bodies.len()).map(|body| {
                     let n = studio.race().truth().bodies()[body].stepper.q().len();

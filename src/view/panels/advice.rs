@@ -538,7 +538,7 @@ mod tests {
             let searches =
                 judged == wanted && texts.contains(&"At 60 Hz: searching reserves …".into());
             assert!(texts.contains(&told) || searches, "{texts:?}");
-            (0..30).for_each(|_| drop(worker.work()));
+            (0..30).for_each(|_| _ = worker.work());
             accept_findings(&mut studio.deck, &mut studio.viewer, worker.findings());
         }
     }
