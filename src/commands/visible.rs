@@ -27,6 +27,22 @@ pub fn visible(text: &str) -> Cow<'_, str> {
     shown.collect()
 }
 
+/// Most characters of a message at its start and at its end, where the remedy is.
+const MAX_HEAD_CHARS: usize = 2000;
+const MAX_TAIL_CHARS: usize = 500;
+
+/// Returns a message without the middle part if it is too long to read.
+pub(super) fn shortened(message: &str) -> Cow<'_, str> {
+    let head = message.char_indices().nth(MAX_HEAD_CHARS).map(|(at, _)| at);
+    let tail = message.char_indices().nth_back(MAX_TAIL_CHARS).map(|(at, _)| at);
+    match head.zip(tail) {
+        Some((head, tail)) if head < tail => {
+            format!("{} … {}", &message[..head], &message[tail..]).into()
+        }
+        _ => message.into(),
+    }
+}
+
 /// Returns the text in a form for use within a line, in which line ends become signs too.
 pub(super) fn visible_in_a_line(text: &str) -> String {
     visible(text).replace('\r', "\u{240d}").replace('\n', "\u{240a}")
