@@ -4,7 +4,6 @@
 //! distance between that motion and the truth is added to the method's errors.
 
 use super::amplitude::Trend;
-use super::amplitude::Trend;
 use super::criterion::{FREQUENCY_TOLERANCE, TOLERANCE, VISIBLE};
 use super::judge::Judge;
 use super::truth::{BodyTruth, Swing, ticks};

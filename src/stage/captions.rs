@@ -35,13 +35,10 @@ const MAX_FOR_LANES: f32 = 0.28;
 const LANE_INSET: f32 = 8.0;
 /// Room (points) of a ghost's name besides its letters.
 const BESIDE_NAME: f32 = 18.0;
-<<<<<<< HEAD
 /// Distance (points) between the verdicts of two lanes.
 const BETWEEN_LANES: f32 = 14.0;
-=======
 /// Side of the sign of a pause, in points.
 const PAUSE: f32 = 34.0;
->>>>>>> main
 /// Height (points) of an answer's lines above the foot of a cell, clear of the halts there.
 const ANSWER: [f32; 2] = [60.0, 44.0];
 /// Height (points) of a failed check above the foot of a cell, over the lines of an answer.

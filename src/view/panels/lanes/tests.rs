@@ -270,5 +270,5 @@ fn in_the_race_of_a_recording_each_key_and_row_has_its_own_lane() {
     assert_eq!(rows[0][0].head(), "1 → 2 (switched at 2.02 s)");
     assert_eq!(rows[1][0].head(), "Semi-implicit Euler");
     let verdicts = studio.analysis_request().entries;
-    assert_eq!(verdicts[0].method, verdicts[1].method, "judged as it runs now");
+    assert_eq!(verdicts[0].0.method, verdicts[1].0.method, "judged as it runs now");
 }
