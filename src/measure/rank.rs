@@ -2,7 +2,8 @@
 //!
 //! The lowest [cost](CriterionMet::cost_per_s) comes first. Of equal costs a [last resort](is_last_resort) comes last;
 //! other ties go to the larger [reserve](CriterionMet::reserve), then to the fewest substeps, then to the place in the
-//! table of methods. A method with a reserve below [`LITTLE_RESERVE`] is passed over if another method has a larger reserve at up to [`TIMES_ITS_COST`] times the cost.
+//! table of methods. A method with a reserve below [`LITTLE_RESERVE`] is passed over if another method has a larger
+//! reserve at up to [`TIMES_ITS_COST`] times the cost.
 
 use super::criterion::CriterionMet;
 use crate::sim::integrators::{METHODS, Method};
@@ -40,14 +41,8 @@ impl Ranked<'_> {
         self.is_last_resort && !other.is_last_resort && other.met.cost_per_s <= self.met.cost_per_s
     }
 
-    /// Whether `other` has a larger reserve at little more cost, or the same cost where this is a last resort.
+    /// Whether `other` has a larger reserve at little more cost.
     fn loses_to(&self, other: &Self) -> bool {
-        if self.is_last_resort
-            && !other.is_last_resort
-            && other.met.cost_per_s == self.met.cost_per_s
-        {
-            return true;
-        }
         self.reserve < LITTLE_RESERVE
             && other.reserve > self.reserve
             && (self.is_last_resort || !other.is_last_resort)

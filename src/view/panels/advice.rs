@@ -538,7 +538,9 @@ mod tests {
             let searches =
                 judged == wanted && texts.contains(&"At 60 Hz: searching reserves …".into());
             assert!(texts.contains(&told) || searches, "{texts:?}");
-            (0..30).for_each(|_| _ = worker.work());
+            for _ in 0..30 {
+                worker.work();
+            }
             accept_findings(&mut studio.deck, &mut studio.viewer, worker.findings());
         }
     }

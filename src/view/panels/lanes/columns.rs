@@ -94,7 +94,7 @@ fn body<'a>() -> Column<Row<'a>> {
 /// Returns the column of verdicts. Its head names the judged body if all verdicts are about the same one. In a race,
 /// the head also names the body whose numbers follow.
 fn verdict<'a>(studio: &Studio) -> Column<Row<'a>> {
-    let about = "the effect of this method on the scene at this tick rate: its worst body, judged in a separate run; \
+    let about = "what follows under this method at this tick rate: its worst body, from the last change of the run on; \
                  click to sort from best to worst";
     let bodies = &studio.scene().bodies;
     let whose = row::judged_body(studio).map(|body| format!(" ({})", bodies[body].name));
