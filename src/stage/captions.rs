@@ -11,12 +11,10 @@ use crate::measure::{Outcome, Severity};
 use crate::run::Checked;
 use crate::run::race::{Entrant, Halt, LaneBody};
 use crate::scene::Mark;
-use crate::sim::number::{round, significant};
+use crate::sim::number::significant;
 use crate::studio::Studio;
 use crate::studio::{pace_in_words, shown_state, shown_truth};
 
-/// Room of a scale bar at the right of a cell, in points.
-const BAR_MARGIN: f32 = 130.0;
 /// Height of a chip, in points.
 const CHIP: f32 = 27.0;
 /// Distance (points) between the two lines beside a lane.
@@ -535,43 +533,6 @@ pub(super) fn ghost_name(
     }
 }
 
-/// Draws the course line of a ship `beam` points wide, with distance marks whose numbers keep clear of the ship.
-pub(super) fn course(picture: &mut Picture, camera: &Camera, beam: f32, palette: &Palette) {
-    let Rect { min, max } = camera.rect;
-    let y = camera.points(DVec2::new(0.0, camera.centre_m.y))[1];
-    let chart = fade(palette.chart, 0.45);
-    picture.pen(camera.rect).dashed([[min[0], y], [max[0], y]], 1.0, chart, [8.0, 5.0]);
-    if max[0] - min[0] < breakpoints::MARKS || max[1] - min[1] < breakpoints::SCALE_BAR {
-        return;
-    }
-    let step_m = camera.round_length_m(96.0);
-    let named_m = camera.round_length_m(0.47 * f64::from(max[0] - min[0]));
-    let is_named = |x_m: f64| libm::fmod(x_m, named_m).abs() < step_m / 2.0;
-    let (left, right) = camera.span_m();
-    let first = libm::ceil(left / step_m);
-    for i in 0..=((right - left) / step_m) as usize {
-        let x_m = (first + i as f64) * step_m;
-        let [x, _] = camera.points(DVec2::new(x_m, 0.0));
-        if x > min[0] + 30.0 && x < max[0] - 30.0 {
-            let colour = palette.dim;
-            picture.pen(camera.rect).line([x, y - 5.0], [x, y + 5.0], 1.5, colour);
-            if !is_named(x_m) {
-                continue;
-            }
-            let unit = if x_m == 0.0 { " m" } else { "" };
-            let words = round(x_m, 6) + unit;
-            picture.labels.push(text(
-                palette,
-                [x, (y + (beam / 2.0 + 14.0).max(32.0)).min(max[1] - 9.0)],
-                Align::Centre,
-                12.0,
-                colour,
-                words,
-            ));
-        }
-    }
-}
-
 /// A plate for words with a rim of this colour.
 pub(super) fn plate(
     picture: &mut Picture,
@@ -586,102 +547,5 @@ pub(super) fn plate(
     pen.ring(&shape, 1.6, rim);
 }
 
-/// A line of this width from side to side, with a stroke across each end that extends `reach` points up and down.
-pub(super) fn span_line(
-    picture: &mut Picture,
-    ([left, right], y): ([f32; 2], f32),
-    (width, reach): (f32, f32),
-    colour: Rgba,
-    clip: Rect,
-) {
-    picture.pen(clip).line([left, y], [right, y], width, colour);
-    for x in [left, right] {
-        picture.pen(clip).line([x, y - reach], [x, y + reach], width, colour);
-    }
-}
-
-/// Draws a round number of metres to scale.
-pub(super) fn scale_bar(picture: &mut Picture, camera: &Camera, palette: &Palette) {
-    let Rect { min, max } = camera.rect;
-    if max[0] - min[0] < BAR_MARGIN || max[1] - min[1] < breakpoints::SCALE_BAR {
-        return;
-    }
-    let length_m = camera.round_length_m(40.0);
-    let (right, y, colour) = (max[0] - 10.0, max[1] - 8.0, palette.dim);
-    let left = right - camera.length(length_m);
-    let at = [(left + right) / 2.0, y - 10.0];
-    // In a low cell, the badge of a body beyond the edge needs the room.
-    let is_taken =
-        |label: &Label| (label.at[1] - at[1]).abs() < 16.0 && (label.at[0] - at[0]).abs() < 60.0;
-    if picture.labels.iter().any(is_taken) {
-        return;
-    }
-    span_line(picture, ([left, right], y), (1.5, 3.0), colour, camera.rect);
-    let words = format!("{} {}", round(length_m, 4), camera.unit);
-    picture.labels.push(text(palette, at, Align::Centre, 11.0, colour, words));
-}
-
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::scene::Scene;
-    use crate::stage::compose;
-    use crate::studio::{HeldBody, RunCommand, StageCommand, ViewCommand};
-
-    /// The words beside the body's name. Asserts that they end before the chip.
-    fn beside_name_of(studio: &Studio, width: f32) -> Option<String> {
-        let picture = compose(studio, [width, 460.0]);
-        let chip = picture.labels.iter().find(|label| label.text == "▲").expect("a chip");
-        let name = picture.labels.iter().find(|label| label.text == "Spring").expect("a name");
-        let is_beside = |label: &&Label| label.size == 12.5 && label.at[1] == name.at[1] + 0.5;
-        let beside = picture.labels.iter().find(is_beside)?;
-        let right = beside.at[0] + LETTER * beside.text.chars().count() as f32;
-        assert!(right < chip.at[0] - 11.0, "{} ends at {right} of {width}", beside.text);
-        Some(beside.text.clone())
-    }
-
-    #[test]
-    fn text_beside_a_name_ends_before_the_chip_even_while_a_body_is_held() {
-        let mut studio = Studio::new(Scene::built_in("spring").unwrap());
-        studio.analyse();
-        (0..60).for_each(|_| studio.tick());
-        let promise = Some("should keep to ±1 m".to_owned());
-        assert_eq!(beside_name_of(&studio, 780.0), promise);
-        assert_eq!(beside_name_of(&studio, 300.0), None, "no room for both");
-        let lane = studio.selected().id;
-        let mut in_narrow = 0;
-        for power in -20..30 {
-            let at = -1.2345 * libm::exp10(f64::from(power));
-            let (q, v, hand) = ([at].into(), [0.0].into(), DVec2::new(at, 0.0));
-            studio.apply(RunCommand::Hold(HeldBody { lane, body: 0, q, v, hand, handle: hand }));
-            let words = beside_name_of(&studio, 780.0).expect("room for both");
-            assert!(words.starts_with("x = −") && words.ends_with(" m"), "{power}: {words}");
-            in_narrow += usize::from(beside_name_of(&studio, 480.0).is_some());
-        }
-        assert!((1..49).contains(&in_narrow), "{in_narrow}");
-        studio.apply(ViewCommand::LetGo);
-        assert_eq!(beside_name_of(&studio, 780.0), promise);
-    }
-
-    #[test]
-    fn the_chip_of_an_edited_run_is_of_what_follows_the_edit() {
-        let words = |studio: &Studio, size| -> Vec<String> {
-            let labels = compose(studio, size).labels.into_iter().map(|label| label.text);
-            labels.filter(|text| text.contains("blow")).collect()
-        };
-        for ticks in [0, 20] {
-            let mut studio = Studio::new(Scene::built_in("stiff").unwrap());
-            (0..ticks).for_each(|_| studio.tick());
-            studio.apply(StageCommand::TickHz(49.into()));
-            studio.analyse();
-            (0..20).for_each(|_| studio.tick());
-            let [wide, narrow] = [[960.0, 560.0], [470.0, 330.0]].map(|size| words(&studio, size));
-            (0..300).for_each(|_| studio.tick());
-            let halt = studio.selected().lane.bodies()[0].halted().expect("it blows up");
-            assert!((4.0..5.0).contains(&halt.t), "changed at {ticks}: {}", halt.t);
-            let at = significant(halt.t, 3);
-            assert_eq!(wide, [format!("blows up · at {at} s")], "changed at {ticks}");
-            assert_eq!(narrow, ["blows up"], "changed at {ticks}");
-        }
-    }
-}
+mod tests;

@@ -12,7 +12,7 @@ use super::moment::DrawContext;
 use super::sketch::{Camera, LaneStyle, SOLID};
 use super::{
     Cell, Picture, Rect, Whose, apex, breakpoints, captions, chart, futures, hull, loop_stage,
-    loupe, universe,
+    loupe, scale_marks, universe,
 };
 use crate::look::palette::{Rgba, fade};
 use crate::look::{Framing, Look};
@@ -116,7 +116,7 @@ fn overlay(
             && (has_ruler
                 || !matches!(view.framing, Framing::Recorder { .. } | Framing::Fixed { .. })))
         {
-            captions::scale_bar(picture, &camera, moment.palette);
+            scale_marks::scale_bar(picture, &camera, moment.palette);
         }
     }
     if has_ruler {
@@ -148,7 +148,7 @@ fn side_by_side(
         frame(picture, cell, fade(moment.palette.chart, 0.3));
         let shared = moment.camera(cell, index, &ghost.view).points_per_metre;
         if entrant.id == entrants[entrants.len() - 1].id || camera.points_per_metre != shared {
-            captions::scale_bar(picture, &camera, moment.palette);
+            scale_marks::scale_bar(picture, &camera, moment.palette);
         }
     };
     if let Some(shape) = moment.shape(&ghosts[0].view) {
@@ -396,7 +396,7 @@ impl BodyCell<'_> {
                     _ => None,
                 });
                 let beam = hull::BEAM * camera.length(hull_m.unwrap_or_default());
-                captions::course(picture, camera, beam, moment.palette);
+                scale_marks::course(picture, camera, beam, moment.palette);
             }
             Framing::Recorder { .. } => {
                 chart::mooring(picture, camera, moment.palette);

@@ -7,7 +7,7 @@ use super::captions::{self, text};
 use super::framed::BodyView;
 use super::moment::DrawContext;
 use super::sketch::{Camera, PEN, circle};
-use super::{Align, Label, Picture, Rect};
+use super::{Align, Label, Picture, Rect, scale_marks};
 use crate::look::landmarks::SilhouetteShape::{Disc, Outline, Ring};
 use crate::look::landmarks::{LANDMARKS, Landmark};
 use crate::look::palette::{Palette, Rgba, fade, mix};
@@ -133,7 +133,7 @@ impl Row {
                 }
             }
             let ends = [left, left + length];
-            captions::span_line(picture, (ends, below), (1.0, 4.0), palette.dim, clip);
+            scale_marks::span_line(picture, (ends, below), (1.0, 4.0), palette.dim, clip);
         }
         let each = if count == 1 { "" } else { " each" };
         let words = format!("{}, {}{each}", self.words(), landmark.length);
