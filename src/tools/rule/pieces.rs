@@ -6,7 +6,7 @@ use super::Rule;
 use crate::sim::law::{Frame, SwitchKind};
 
 /// Number of states that are tried to find the pieces, and the decades over which they spread.
-const TRIED: u32 = 6000;
+const TRIED: u32 = 2000;
 const DECADES: [f64; 2] = [-5.0, 4.0];
 /// The last decade if a switch has a piece for each whole number.
 const MANY_DECADE: f64 = 1.5;
