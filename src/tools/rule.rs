@@ -267,7 +267,7 @@ impl Rule {
             grows: false,
             top_speed,
             accelerates,
-            jump: self.jump(fps),
+            jump: accelerates.filter(|_| top_speed.is_none()).and_then(|_| self.jump(fps)),
         };
         let Some(motion) = self.motion(fps) else {
             return VisibleMotion { grows: self.grows_when_watched(fps), ..nothing };

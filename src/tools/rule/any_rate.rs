@@ -121,8 +121,6 @@ impl Rule {
 
     /// Returns the closed form of a chase that is quicker on one side of its target.
     fn two_rates(&self) -> Option<String> {
-        let pieces = self.pieces();
-        let [first, second] = &pieces[..] else { return None };
         let mut switches = self.text.switches();
         let is_one = matches!(switches.next(), Some((SwitchKind::Condition, _)));
         if !is_one || switches.next().is_some() || self.state != [0] {
@@ -137,6 +135,8 @@ impl Rule {
         if [-1.0, 1.0].iter().any(|side| modes_at(side * 1e-9) != modes_at(side * 1e9)) {
             return None;
         }
+        let pieces = self.pieces();
+        let [first, second] = &pieces[..] else { return None };
         let line = |piece: &Piece| {
             let frame = piece.rule.frame(self.fps)?;
             let rests = frame.by_target.x / (1.0 - frame.map.m11);

@@ -6,8 +6,10 @@ use super::Rule;
 use crate::sim::law::{Frame, SwitchKind};
 
 /// Number of states that are tried to find the pieces, and the decades over which they spread.
-const TRIED: u32 = 6000;
+const TRIED: u32 = 2000;
 const DECADES: [f64; 2] = [-5.0, 4.0];
+/// The last decade if a switch has a piece for each whole number.
+const MANY_DECADE: f64 = 1.5;
 /// A distance at which a rule is at rest.
 const REST: f64 = 1e-12;
 /// The maximum number of pieces, and of ways in which the switches of a rule are set.
@@ -60,6 +62,7 @@ impl Rule {
             return None;
         }
         let has_many = switches.iter().any(|(kind, _)| *kind == SwitchKind::Many);
+        let last_decade = if has_many { MANY_DECADE } else { DECADES[1] };
         let mut seed = 1_u64;
         let mut random = || {
             seed = seed
@@ -72,7 +75,7 @@ impl Rule {
         for _ in 0..TRIED {
             let mut at = vec![0.0; rest.len()];
             for index in &self.state {
-                let decade = DECADES[0] + (DECADES[1] - DECADES[0]) * random();
+                let decade = DECADES[0] + (last_decade - DECADES[0]) * random();
                 at[*index] = libm::exp10(decade) * if random() < 0.5 { -1.0 } else { 1.0 };
             }
             let modes = text.modes(h, &at, 0.0);
