@@ -124,7 +124,7 @@ impl Names<'_> {
                 "." if self.language == Language::C && written.ends_with("memory") => {
                     written.push_str("->");
                 }
-                _ if first.is_ascii_alphabetic() => {
+                _ if first.is_ascii_alphabetic() || first == '_' => {
                     let is_call = after.starts_with('(');
                     calls_with_user = is_call && self.takes_user(token);
                     written.push_str(&self.word(token, is_call, converts));
