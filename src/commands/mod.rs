@@ -80,6 +80,7 @@ mod interrupt;
 mod jobs;
 mod output;
 mod own_method;
+mod table_args;
 mod terminal;
 mod tick_rate;
 mod visible;

@@ -89,9 +89,11 @@ pub(super) struct PortArgs {
     mass: f64,
 
     /// Ticks per second of the engines and of a log, frames per second of user interfaces
-    #[arg(long, value_name = "N", default_value = "60", value_parser = rate_of_a_log)]
+    ///
+    /// [default: 60, or by the times of a log]
+    #[arg(long, value_name = "N", value_parser = rate_of_a_log)]
     #[arg(allow_negative_numbers = true)]
-    tick_hz: f64,
+    tick_hz: Option<f64>,
 
     /// The length of a tick, in place of --tick-hz
     #[arg(long, value_name = "s", value_parser = rate_of_a_step, conflicts_with = "tick_hz")]
@@ -159,10 +161,13 @@ const TARGET: Id<Target> = Id {
     spellings: Vec::new,
 };
 
+/// Ticks per second where none are given.
+const USUAL_HZ: f64 = 60.0;
+
 impl PortArgs {
     /// Returns the tick rate in Hz, from either of its options.
     fn tick_hz(&self) -> f64 {
-        self.step.unwrap_or(self.tick_hz)
+        self.step.or(self.tick_hz).unwrap_or(USUAL_HZ)
     }
 }
 
@@ -218,8 +223,8 @@ pub(super) fn run(args: &PortArgs) -> Result<(), Error> {
         Some(WishSource::UiSpring { as_given, .. }) if args.drive => as_given,
         Some(WishSource::UiSpring { shown, .. }) => shown,
         Some(WishSource::Log(path)) => {
-            let log = args.read.read(&path, args.tick_hz())?;
-            let found = identify(&log, &args.read.body(args.mass), args.tick_hz());
+            let log = args.read.read(&path, args.step.or(args.tick_hz), Some(USUAL_HZ))?;
+            let found = identify(&log, &args.read.body(args.mass), log.tick_hz());
             let seen = found.and_then(|found| found.effective).filter(|seen| seen.omega > 0.0);
             let none = || {
                 Error::mistake(format!(

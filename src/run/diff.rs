@@ -401,7 +401,7 @@ impl Work {
     /// Records whether the text of a column changes between rows with the same key.
     fn note_text(&mut self, place: Place, column: usize, cells: [&[u8]; 2]) {
         let moves = self.layout.values[column].moves;
-        if matches!(moves, Moves::Never | Moves::Back) {
+        if moves == Moves::Never {
             return;
         }
         for cell in cells {
