@@ -329,7 +329,11 @@ impl Columns {
             let index = clock.or_else(frames).unwrap_or(0);
             return Ok(Self::of_list(index, &format!("{}", index + 1), None, clock.is_some()));
         }
-        let is_there = |(index, name)| if survey.is_missing(index) { "" } else { name };
+        let is_there = |(index, name): (usize, _)| {
+            let is_untracked =
+                survey.is_missing(index) && str::to_lowercase(name).contains("display");
+            if is_untracked { "" } else { name }
+        };
         let known: StringRecord = header.iter().enumerate().map(is_there).collect();
         let found = Self::find(&known);
         let Err(Fault::Columns { .. }) = found else { return found };
@@ -405,7 +409,9 @@ impl Columns {
     /// Whether the frames end before this row. Unreal repeats the header at the end and describes the build there.
     pub(super) fn end_before(&self, row: &StringRecord) -> bool {
         let is_of_build = row.get(0).is_some_and(|cell| cell.trim_start().starts_with('['));
-        is_of_build || row.get(self.began.index).is_some_and(|cell| cell.trim() == self.began.name)
+        let is_name = self.began.name.parse::<f64>().is_err();
+        let is_header = |cell: &str| is_name && cell.trim() == self.began.name;
+        is_of_build || row.get(self.began.index).is_some_and(is_header)
     }
 
     /// Whether the log has display times.

@@ -50,6 +50,7 @@ fn the_first_difference_is_reported_with_place_and_growth() {
         "moved",
         "per_second",
         "reaches",
+        "read",
         "rows",
         "same",
         "worst",
@@ -363,6 +364,6 @@ fn text_hashes_json_and_dumps_are_compared_at_their_tick() {
     );
     let (code, said) = told("t,x\n0,1\n1,2\n2,9\n", "t,x\n0,1\n1,2\n2,8\n", "--end 2");
     assert!(code == Some(0) && said.contains("rows 1 to 2 of 3"), "{said}");
-    let (code, said) = told("{\"a\": 1}\n{\"b\": 2}\n", "x", "");
+    let (code, said) = told("{\"a\": 1}\n{\"b\": 2}\n", "{\"a\": 1}\n", "");
     assert!(code == Some(2) && said.contains("is not in the first object"), "{said}");
 }

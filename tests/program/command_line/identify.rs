@@ -73,7 +73,7 @@ fn a_log_that_cannot_be_read_is_refused_with_its_line_and_a_remedy() {
             "t,body,x\n0,a,1\n0,b,2\n1,a,3\n1,b,4\n",
             "two rows at each time; --where body=a takes one",
         ),
-        ("{\"a\": 1}\n[2]\n", "line 2: this is no object of JSON"),
+        ("{\"t\": 0, \"x\": 1}\n[2]\n", "line 2: this is no object of JSON"),
         ("{\"traceEvents\": []}", "this is a trace of Chromium"),
         // A row of a trace has the name in a cell.
         (
