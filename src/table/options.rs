@@ -87,7 +87,7 @@ impl RowFilter {
     }
 }
 
-/// The rows that were taken of those that are there, and how the columns were read.
+/// The rows of a table that were taken, and how the columns were read.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Taken {
     /// Number of the first and the last row that was taken, from 1.

@@ -219,7 +219,7 @@ fn a_list_or_table_is_read_by_its_size_heading_and_form() {
     let dt_ms = |n: usize| if n % 10 == 0 && n > 0 { 1e3 / 30.0 } else { 1e3 / 60.0 };
     let of_day = |n: usize| format!("12:00:{:06.3}", t_ms(n) / 1e3);
     let (clock, size) = ("the times are those of a running clock", "by size");
-    let frames = "57.1 a second";
+    let frames = "55.8 a second";
     let clocks = "55.7 a second";
     for (text, told) in [
         (rows(&|n| format!("{:.7}", t_ms(n) / 1e3)), [clocks, clock, "in seconds, by size"]),
