@@ -63,6 +63,7 @@ pub fn compose(studio: &Studio, size: [f32; 2]) -> Picture {
             side_by_side(&mut picture, &moment, stage, &ghosts, &entrants);
         }
     }
+    captions::pause(&mut picture, studio, stage);
     picture
 }
 
@@ -200,10 +201,11 @@ impl BodyCell<'_> {
         self.ground(picture, shows_ghost);
         let has_outgrown = self.has_outgrown();
         if has_outgrown {
-            universe::landmarks(picture, camera, palette);
+            universe::landmarks(picture, (camera, self.room()), moment, (index, self.front));
         }
         if self.shows_futures() && self.lanes.iter().any(|lane| lane.id == studio.selected().id) {
-            futures::draw(picture, moment, camera, framing, index);
+            futures::draw(picture, moment, (camera, self.room()), framing, index);
+            captions::futures(picture, camera.rect, studio, palette);
         }
 
         let behind = self.lanes.iter().filter(|lane| !self.is_front(lane));
@@ -340,7 +342,8 @@ impl BodyCell<'_> {
         if has_outgrown {
             let of_lane = (index, self.front);
             let swing_m = ghost.swing_m.unwrap_or(ghost.view.reach_m.x);
-            universe::write_distance(picture, camera, moment, (view, swing_m), of_lane);
+            let on = (camera, self.room());
+            universe::write_distance(picture, on, moment, (view, swing_m), of_lane);
         }
         picture.cells.push(cell);
     }
@@ -395,7 +398,12 @@ impl BodyCell<'_> {
             Framing::Recorder { .. } => {
                 chart::mooring(picture, camera, moment.palette);
                 if let Some(swing_m) = ghost.swing_m {
-                    envelope(picture, camera, swing_m, fade(moment.palette.exact, 0.6));
+                    let bottom = match self.has_outgrown() {
+                        true => camera.at[1] + camera.paper as f32,
+                        false => camera.rect.max[1] - 4.0,
+                    };
+                    let ends = [captions::foot_of_head(camera.rect), bottom];
+                    envelope(picture, camera, (swing_m, ends), fade(moment.palette.exact, 0.6));
                 }
             }
             Framing::Follow { .. } | Framing::Fixed { .. } => {}
@@ -420,14 +428,19 @@ impl BodyCell<'_> {
     fn draw_compared(&self, picture: &mut Picture, lift: f32) {
         let Self { moment, index, ref camera, front, .. } = *self;
         let (deck, palette) = (&moment.studio.deck, moment.palette);
+        if index == 0
+            && front.id == deck.selected().id
+            && let Some(failed) = deck.run().first_failed_check()
+        {
+            captions::write_failed_check(picture, camera.rect, failed, palette);
+        }
         let Some(compared) = deck.compared().filter(|_| front.id == deck.selected().id) else {
             return;
         };
         if index == 0 {
             captions::write_comparison(picture, camera.rect, compared.lines(), palette);
         }
-        let Some(body) = compared.body(deck.scene(), &front.spec, index) else { return };
-        let (q, _) = shown_state(deck, &moment.studio.viewer, body);
+        let Some((body, q)) = compared.body(deck.scene(), &front.spec, index) else { return };
         let outline = Look::of(body).outline(moment.t, &q);
         let style = LaneStyle { colour: palette.accent, dash: SOLID, fill: 0.0 };
         OutlineView { outline: &outline, camera, palette }.draw_behind(picture, style);
@@ -494,9 +507,13 @@ fn trail_s(framing: Framing, moment: &DrawContext<'_>) -> Option<f64> {
     }
 }
 
-/// Draws dotted lines at the largest swing of the truth. A mass beyond them has gained energy.
-fn envelope(picture: &mut Picture, camera: &Camera, swing_m: f64, colour: Rgba) {
-    let (top, bottom) = (camera.rect.min[1] + 4.0, camera.rect.max[1] - 4.0);
+/// Draws dotted lines between two heights at the largest swing of the truth. A mass beyond them has gained energy.
+fn envelope(
+    picture: &mut Picture,
+    camera: &Camera,
+    (swing_m, [top, bottom]): (f64, [f32; 2]),
+    colour: Rgba,
+) {
     for x in [-swing_m, swing_m] {
         let [x, _] = camera.points(DVec2::new(x, 0.0));
         picture.pen(camera.rect).dashed([[x, top], [x, bottom.max(top)]], 1.3, colour, [2.5, 4.0]);

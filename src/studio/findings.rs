@@ -19,14 +19,14 @@ use crate::sim::bodies::{Parameter, Range, TakesEffect};
 pub fn analysis_request(deck: &Deck, viewer: &Viewer) -> AnalysisRequest {
     let flown = deck.race().entrants().iter().map(|lane| deck.entry(lane) + 1);
     let first = flown.max().unwrap_or_default().max(deck.offered());
-    let entries = match deck.mode() {
-        Mode::Solo => &deck.entries()[..first],
-        Mode::Race => deck.entries(),
+    let count = match deck.mode() {
+        Mode::Solo => first,
+        Mode::Race => deck.entries().len(),
     };
     AnalysisRequest {
         scene: Arc::clone(&deck.run.next().scene),
         by_hand: Interventions::in_race(deck.race(), deck.run().checkpoints()),
-        entries: entries.to_vec(),
+        entries: (0..count).map(|entry| deck.spec(entry)).collect(),
         first,
         tick_hz: deck.clock.tick_hz(),
         advice: (viewer.display().instrument == Instrument::Advice)

@@ -324,6 +324,27 @@ mod tests {
     }
 
     #[test]
+    fn a_declared_place_or_velocity_is_assigned_unless_it_is_a_constant() {
+        for (declared, assigned) in [
+            ("let x = x + (target - x) * 0.1", "x = x + (target - x) * 0.1"),
+            ("float v = v * 0.9; x += v * dt", "v = v * 0.9; x += v * dt"),
+            ("auto x = abs(target)", "x = abs(target)"),
+            ("local velocity = velocity * 2; x += velocity", "v = v * 2; x += v"),
+            (
+                "let d = target - x; var v = (v + d * 0.2) * 0.85; x += v",
+                "d = target - x; v = (v + d * 0.2) * 0.85; x += v",
+            ),
+            ("let v = 3; let v = v * 0.9; x += v", "v *= 0.9; x += v"),
+        ] {
+            assert_eq!(run(declared, 5), run(assigned, 5), "{declared}");
+        }
+        let start = read("let v = 3; let v = v * 0.9; x += v").carried()[1].start;
+        assert_eq!(start, 3.0);
+        let method = read("let v = v + h * a(x, v); x += h * v");
+        assert!(method.acceleration_at().is_some() && !method.leaves_unchanged(1));
+    }
+
+    #[test]
     fn a_fault_has_its_byte_range() {
         for (text, at, what) in [
             ("x += k", 5..6, "unknown name `k`"),
@@ -339,6 +360,7 @@ mod tests {
             ("if x > 0 { let y = 1 }; x = y", 28..29, "unknown name `y`"),
             ("if x { x = 1 }", 3..4, "`x` is a number, not a condition"),
             ("memory k = x; x = k", 10..12, "a memory starts as a finite number"),
+            ("memory k = x + 1; x = k", 10..16, "a memory starts as a finite number"),
             ("x +=", 4..4, "the expression is empty"),
         ] {
             assert_eq!(fault_of(text), (at, what.to_owned()), "{text}");

@@ -9,3 +9,4 @@ mod gdscript;
 mod held;
 mod known;
 mod text;
+mod words;

@@ -279,8 +279,8 @@ impl<'t> Reader<'t> {
     /// Returns the value of an expression made only of numbers.
     fn constant_value(&self, expression: &Expression, span: Range<usize>) -> Parsed<f64> {
         let reads = expression.nodes.iter().any(|node| matches!(node.op, Op::Input | Op::Call));
-        let tape = Tape::new(0, |_| false, &[(Part::Energy, expression)]).ok().filter(|_| !reads);
-        let value = tape.map(|tape| {
+        let tape = || Tape::new(0, |_| false, &[(Part::Energy, expression)]).ok();
+        let value = (!reads).then(tape).flatten().map(|tape| {
             let mut slots = vec![0.0; tape.slots];
             tape.prepare::<1>(slots.as_chunks_mut().0);
             tape.evaluate(&mut slots);

@@ -92,6 +92,16 @@ impl<'a> Row<'a> {
         self.spec.name_with_substeps(self.studio.entries()) + &within.unwrap_or_default()
     }
 
+    /// Returns the digits of both methods for a lane of a race that was switched, or else the method's name.
+    pub(super) fn head(&self) -> String {
+        match self.studio.deck.switched(self.entry) {
+            Some((to, at_s)) => {
+                format!("{} → {} (switched at {at_s:.2} s)", self.entry + 1, to + 1)
+            }
+            None => self.method_name(),
+        }
+    }
+
     fn flown_body(&self) -> Option<&'a LaneBody> {
         Some(&self.flown?.lane.bodies()[self.body])
     }
