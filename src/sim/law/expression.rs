@@ -84,6 +84,14 @@ pub(super) trait Scope {
     fn names(&self) -> Vec<String>;
     /// Returns the reason why this name, which other expressions may use, is not allowed here.
     fn why_not(&self, name: &str) -> Option<String>;
+    /// Returns the value of a constant that every expression knows.
+    fn constant(&self, name: &str) -> Option<f64> {
+        (name == "pi").then_some(PI)
+    }
+    /// Returns the index of a function of the text, and whether each of its inputs is the acceleration.
+    fn own_function(&self, _name: &str) -> Option<(usize, Vec<bool>)> {
+        None
+    }
     /// Whether a call of this name is a call of the acceleration.
     fn is_acceleration(&self, _name: &str) -> bool {
         false
@@ -347,6 +355,11 @@ impl Parser<'_> {
         if self.peek() == Token::Symbol("(") && self.scope.is_acceleration(&name) {
             return self.acceleration(span);
         }
+        if self.peek() == Token::Symbol("(")
+            && let Some((index, inputs)) = self.scope.own_function(&name)
+        {
+            return self.apply(span, index, &inputs);
+        }
         if let Some(function) = self.scope.function(&name) {
             if self.peek() != Token::Symbol("(") {
                 let what = format!("`{name}` is a function");
@@ -361,8 +374,8 @@ impl Parser<'_> {
             }
             return Ok(self.node(Node::input(input), span));
         }
-        if name == "pi" {
-            return Ok(self.number(PI, span));
+        if let Some(value) = self.scope.constant(&name) {
+            return Ok(self.number(value, span));
         }
         if let Some(why) = self.scope.why_not(&name) {
             return fault(span, why, "remove it");

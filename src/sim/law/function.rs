@@ -29,6 +29,10 @@ pub(super) enum Meaning {
     Between,
     /// `base ^ exponent`, computed by `pow` even for whole exponents.
     Power,
+    /// `-floor(-x)`.
+    Ceil,
+    /// `x != x`.
+    IsNan,
 }
 
 /// A function of one or two arguments that is smooth wherever it is defined. Two functions are equal only if they are
@@ -125,9 +129,11 @@ pub(super) static FUNCTIONS: [Function; 21] = [
 ];
 
 /// The functions of step lines that laws do not have.
-pub(super) static STEP_FUNCTIONS: [Function; 2] = [
+pub(super) static STEP_FUNCTIONS: [Function; 4] = [
     function("lerp", &["a", "b", "part"], Meaning::Between),
     function("pow", &["base", "exponent"], Meaning::Power),
+    function("ceil", &["x"], Meaning::Ceil),
+    function("is_nan", &["x"], Meaning::IsNan),
 ];
 
 /// Names from other languages, each with our name.

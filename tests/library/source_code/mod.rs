@@ -7,5 +7,5 @@ mod copying;
 mod drivers;
 mod gdscript;
 mod held;
-mod known;
+pub(crate) mod known;
 mod text;
