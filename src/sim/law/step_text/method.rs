@@ -477,7 +477,7 @@ impl StepText {
             slots: vec![0.0; self.slots() * coordinates],
             next: Vec::new(),
             asked: [(); 3].map(|()| vec![0.0; coordinates]),
-            masks: vec![false; self.machine.levels * coordinates],
+            masks: vec![false; self.machine.levels.max(1) * coordinates],
         };
         for (slot, number) in &self.machine.numbers {
             registers.slots[slot * coordinates..][..coordinates].fill(*number);

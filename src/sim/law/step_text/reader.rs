@@ -314,6 +314,8 @@ impl<'t> Reader<'t> {
     /// Adds the functions of a shared source.
     fn use_shared(&mut self, span: Range<usize>) -> Parsed<()> {
         let name = self.text[span.clone()].trim();
+        let start = span.start + self.text[span].find(name).unwrap_or(0);
+        let span = start..start + name.len();
         let Some((_, source)) = SHARED.iter().find(|(known, _)| *known == name) else {
             let known: Vec<&str> = SHARED.iter().map(|(known, _)| *known).collect();
             let what = format!("nothing shared is called `{}`", quoted(name));
