@@ -124,8 +124,6 @@ mod atomic_file;
 #[allow(clippy::disallowed_methods, clippy::disallowed_types, reason = "of the drivers")]
 pub mod commands;
 #[cfg(feature = "lab")]
-pub mod lab;
-#[cfg(feature = "lab")]
 pub mod look;
 #[cfg(feature = "lab")]
 pub mod loops;

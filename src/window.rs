@@ -222,6 +222,11 @@ impl App {
 
     /// Applies the commands and steps the ticks that are due.
     fn simulate(&mut self, event_loop: &ActiveEventLoop, now: Instant) {
+        if let Some(Canvas { window, .. }) = &self.canvas {
+            // The system's own keys and buttons change it too.
+            let is_full = window.fullscreen().is_some();
+            self.frames.studio.viewer.preferences.is_full_screen = is_full;
+        }
         while let Some(to_do) = self.frames.begin() {
             match to_do {
                 ToDo::Own(_) => self.advise_on_spring(),
@@ -291,9 +296,10 @@ impl App {
         });
     }
 
-    fn toggle_full_screen(&self) {
+    fn toggle_full_screen(&mut self) {
         if let Some(Canvas { window, .. }) = &self.canvas {
             let full = window.fullscreen().is_none().then_some(Fullscreen::Borderless(None));
+            self.frames.studio.viewer.preferences.is_full_screen = full.is_some();
             window.set_fullscreen(full);
         }
     }

@@ -65,7 +65,7 @@ pub(super) struct CloudArgs {
     ///
     /// In the unit of the coordinate. The default is a quarter of the swing; clouds in the window are small, and reach
     /// twice as far.
-    #[arg(long, alias = "size", value_name = "R", value_parser = reach)]
+    #[arg(long, value_name = "R", value_parser = reach)]
     reach: Option<f64>,
 
     /// Simulated seconds of the run

@@ -154,7 +154,7 @@ pub(super) struct LoopArgs {
     /// Write a line of CSV for each frame into FILE
     ///
     /// - is standard output.
-    #[arg(long, alias = "frames", value_name = "FILE")]
+    #[arg(long, value_name = "FILE")]
     frame_rows: Option<PathBuf>,
 
     /// Draw the motion of each loop as PNG into FILE

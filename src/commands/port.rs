@@ -66,14 +66,14 @@ Examples:
 #[command(group = ArgGroup::new("wish").required(true))]
 pub(super) struct PortArgs {
     /// The frequency that a player should see
-    #[arg(long, alias = "want", value_name = "Hz", group = "wish", value_parser = frequency)]
+    #[arg(long, value_name = "Hz", group = "wish", value_parser = frequency)]
     #[arg(allow_hyphen_values = true)]
     frequency: Option<f64>,
 
     /// The damping ratio that a player should see [default: 0]
     ///
     /// At 1 it is critically damped and no longer swings.
-    #[arg(long, alias = "zeta", value_name = "RATIO", value_parser = number)]
+    #[arg(long, value_name = "RATIO", value_parser = number)]
     #[arg(allow_negative_numbers = true, requires = "frequency", conflicts_with = "from")]
     damping_ratio: Option<f64>,
 
@@ -150,7 +150,7 @@ const TARGET: Id<Target> = Id {
     thing: "engine or user interface with a spring",
     lists: &[],
     all: || {
-        let dialects = UI_SPRINGS.iter().flat_map(|it| it.ids().map(move |id| (id, it)));
+        let dialects = UI_SPRINGS.iter().map(|it| (it.id, it));
         let dialects = dialects.map(|(id, it)| (id.into(), Target::UiSpring(it)));
         let all = [("all".into(), Target::Engines), ("ui".into(), Target::UiSprings)];
         let engines = engines().map(|it| (it.id.into(), Target::Engine(it)));

@@ -21,23 +21,14 @@ use crate::window::KeepRecording;
 const UNFINISHED: &str = ".unfinished";
 const ENDING: &str = ".toml";
 
-/// How notes are stored: the folder beside the settings, the form of the names, and the first words of the text.
-struct Notes {
-    folder: &'static str,
-    /// Text before and after the random characters in the name of a note.
-    name: [&'static str; 2],
-    heading: &'static str,
-}
+/// The folder of notes beside the settings. It is hidden, so that nobody mistakes it for a store of recordings.
+const NOTES_FOLDER: &str = ".unfinished-notes";
 
-/// The notes of this release. Their folder is hidden, so that nobody mistakes it for a store of recordings.
-const NOTES: Notes = Notes {
-    folder: ".unfinished-notes",
-    name: ["recording-", ".note"],
-    heading: "regatta has an unfinished recording in\n",
-};
+/// Text before and after the random characters in the name of a note.
+const NOTE_NAME: [&str; 2] = ["recording-", ".note"];
 
-/// The notes of earlier releases. Their folder may also contain a person's recordings.
-const OLDER_NOTES: Notes = Notes { folder: "recordings", name: [".tmp", ""], heading: "" };
+/// The first line of a note. The path of the recording follows.
+const HEADING: &str = "regatta has an unfinished recording in\n";
 
 /// Maximum number of bytes of a note, which is more than a path has.
 const MAX_NOTE_BYTES: usize = 1 << 16;
@@ -98,7 +89,7 @@ impl RecordingState {
         match self {
             RecordingState::Wanted(path) => {
                 let path = begin_file(path)?.write_whole(text.as_bytes(), IfExists::Beside)?;
-                let note = NOTES.folder().and_then(|folder| Note::new(&folder, &path));
+                let note = notes_folder().and_then(|folder| Note::new(&folder, &path));
                 let note = note.inspect_err(|error| log::info!("no note of it: {error}")).ok();
                 *self = RecordingState::Growing { path, note };
                 Ok(())
@@ -120,10 +111,10 @@ struct Note {
 impl Note {
     fn new(folder: &Path, recording: &Path) -> io::Result<Self> {
         let recording = std::path::absolute(recording)?;
-        let text = NOTES.text(&recording).ok_or(io::ErrorKind::InvalidFilename)?;
+        let text = note_text(&recording).ok_or(io::ErrorKind::InvalidFilename)?;
         fs::create_dir_all(folder)?;
         let mut builder = tempfile::Builder::new();
-        let [before, behind] = NOTES.name;
+        let [before, behind] = NOTE_NAME;
         builder.prefix(before).suffix(behind).rand_bytes(RANDOM_CHARS);
         let mut file = builder.tempfile_in(folder)?;
         file.as_file().lock()?;
@@ -137,51 +128,43 @@ impl Note {
     }
 }
 
-impl Notes {
-    fn folder(&self) -> io::Result<PathBuf> {
-        let settings = preferences::folder().ok_or(io::ErrorKind::NotFound)?;
-        Ok(settings.join(self.folder))
-    }
+fn notes_folder() -> io::Result<PathBuf> {
+    let settings = preferences::folder().ok_or(io::ErrorKind::NotFound)?;
+    Ok(settings.join(NOTES_FOLDER))
+}
 
-    /// Returns the text of the note on a recording, or `None` if the path of the recording does not fit into a line.
-    fn text(&self, recording: &Path) -> Option<String> {
-        let path = recording.to_str().filter(|path| !path.contains(char::is_control))?;
-        Some(format!("{}{path}", self.heading))
-    }
+/// Returns the text of the note on a recording, or `None` if the path of the recording does not fit into a line.
+fn note_text(recording: &Path) -> Option<String> {
+    let path = recording.to_str().filter(|path| !path.contains(char::is_control))?;
+    Some(format!("{HEADING}{path}"))
+}
 
-    /// Returns the recording that the note at `path` names, or `None` if the file does not have both the name and the
-    /// text of a note.
-    fn recording_in(&self, path: &Path) -> Option<PathBuf> {
-        let [before, behind] = self.name;
-        let name = path.file_name()?.to_str()?;
-        let random = name.strip_prefix(before)?.strip_suffix(behind)?;
-        if !is_random(random) || !fs::symlink_metadata(path).is_ok_and(|entry| entry.is_file()) {
-            return None;
-        }
-        let text = String::from_utf8(regular_file::read(path, MAX_NOTE_BYTES).ok()?).ok()?;
-        let recording = PathBuf::from(text.strip_prefix(self.heading)?);
-        let is_noted = self.text(&recording).is_some_and(|noted| noted == text);
-        (is_noted && recording.is_absolute() && is_unfinished(&recording)).then_some(recording)
+/// Returns the recording that the note at `path` names, or `None` if the file does not have both the name and the
+/// text of a note.
+fn recording_in(path: &Path) -> Option<PathBuf> {
+    let [before, behind] = NOTE_NAME;
+    let name = path.file_name()?.to_str()?;
+    let random = name.strip_prefix(before)?.strip_suffix(behind)?;
+    if !is_random(random) || !fs::symlink_metadata(path).is_ok_and(|entry| entry.is_file()) {
+        return None;
     }
+    let text = String::from_utf8(regular_file::read(path, MAX_NOTE_BYTES).ok()?).ok()?;
+    let recording = PathBuf::from(text.strip_prefix(HEADING)?);
+    let is_noted = note_text(&recording).is_some_and(|noted| noted == text);
+    (is_noted && recording.is_absolute() && is_unfinished(&recording)).then_some(recording)
+}
 
-    /// Removes the note at `path` if the program that wrote it no longer runs. Returns a message about the recording,
-    /// if that still exists.
-    fn left_behind_in(&self, path: &Path) -> Option<String> {
-        let recording = self.recording_in(path)?;
-        // A program that still runs would have the lock.
-        File::open(path).ok()?.try_lock().ok()?;
-        fs::remove_file(path).ok()?;
-        let name = recording.display();
-        let message =
-            format!("a recording was not finished when its window ended; {name} has it so far");
-        recording.is_file().then_some(message)
-    }
-
-    fn left_behind(&self) -> Vec<String> {
-        let Ok(notes) = self.folder().and_then(fs::read_dir) else { return Vec::new() };
-        let notes = notes.filter_map(|entry| Some(entry.ok()?.path()));
-        notes.filter_map(|note| self.left_behind_in(&note)).collect()
-    }
+/// Removes the note at `path` if the program that wrote it no longer runs. Returns a message about the recording,
+/// if that still exists.
+fn left_behind_in(path: &Path) -> Option<String> {
+    let recording = recording_in(path)?;
+    // A program that still runs would have the lock.
+    File::open(path).ok()?.try_lock().ok()?;
+    fs::remove_file(path).ok()?;
+    let name = recording.display();
+    let message =
+        format!("a recording was not finished when its window ended; {name} has it so far");
+    recording.is_file().then_some(message)
 }
 
 /// Whether the name may be that of an [unfinished](UnfinishedRecording::for_recording) recording. Such a name is
@@ -196,7 +179,9 @@ fn is_unfinished(recording: &Path) -> bool {
 
 /// Returns the messages about recordings that programs have left behind. Each recording appears once.
 pub(super) fn left_behind() -> Vec<String> {
-    [NOTES, OLDER_NOTES].iter().flat_map(Notes::left_behind).collect()
+    let Ok(notes) = notes_folder().and_then(fs::read_dir) else { return Vec::new() };
+    let notes = notes.filter_map(|entry| Some(entry.ok()?.path()));
+    notes.filter_map(|note| left_behind_in(&note)).collect()
 }
 
 #[cfg(test)]
@@ -227,18 +212,14 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let recording = folder.path().canonicalize().unwrap().join("run.unfinished.toml");
         fs::write(&recording, "").unwrap();
-        let note = Note::new(&folder.path().join(NOTES.folder), &recording).unwrap();
+        let note = Note::new(&folder.path().join(NOTES_FOLDER), &recording).unwrap();
         let path = note.path.clone();
-        assert_eq!(NOTES.left_behind_in(&path), None, "its program runs");
+        assert_eq!(left_behind_in(&path), None, "its program runs");
         assert!(path.exists());
         drop(note);
-        let message = NOTES.left_behind_in(&path).unwrap();
+        let message = left_behind_in(&path).unwrap();
         assert!(message.contains("run.unfinished.toml has it so far"), "{message}");
         assert!(!path.exists());
-        let older = folder.path().join(".tmpaB3dE6");
-        fs::write(&older, recording.to_str().unwrap()).unwrap();
-        assert!(OLDER_NOTES.left_behind_in(&older).is_some());
-        assert!(!older.exists());
     }
 
     #[test]
@@ -247,41 +228,29 @@ mod tests {
         let folder = folder.path().canonicalize().unwrap();
         let path = |name: &str| folder.join(name).display().to_string();
         let recording = path("run.unfinished.toml");
-        let note = format!("{}{recording}", NOTES.heading);
+        let note = format!("{HEADING}{recording}");
         for (name, text) in [
             ("run.toml", note.clone()),
             ("recording-aB3dE6.note.toml", note.clone()),
             ("recording-aB3dE.note", note.clone()),
             ("recording-aB3dE7.note", recording.clone()),
             ("recording-aB3dE8.note", format!("{note}\n")),
-            ("recording-aB3dE9.note", format!("{}run.unfinished.toml", NOTES.heading)),
-            ("recording-aB3d10.note", format!("{}{}", NOTES.heading, path("run.toml"))),
+            ("recording-aB3dE9.note", format!("{HEADING}run.unfinished.toml")),
+            ("recording-aB3d10.note", format!("{}{}", HEADING, path("run.toml"))),
             ("recording-aB3d11.note", format!("my notes\n{note}")),
-            (".tmpaB3dE6", path("run.toml")),
-            (".tmpaB3dE7", path("run.unfinished-x.toml")),
-            (".tmpaB3dE8", format!("{recording}\n{recording}")),
-            (".tmpaB3dE9", String::new()),
+            ("recording-aB3d13.note", String::new()),
             ("run.unfinished.toml", recording.clone()),
         ] {
             fs::write(folder.join(name), &text).unwrap();
-            for notes in [NOTES, OLDER_NOTES] {
-                assert_eq!(notes.left_behind_in(&folder.join(name)), None, "{name}");
-            }
+            assert_eq!(left_behind_in(&folder.join(name)), None, "{name}");
             assert_eq!(fs::read_to_string(folder.join(name)).unwrap(), text, "{name}");
         }
         // The note is removed too if its recording no longer exists.
-        for (notes, name, text) in [
-            (
-                NOTES,
-                "recording-aB3d12.note",
-                format!("{}{}", NOTES.heading, path("x.unfinished-12.toml")),
-            ),
-            (OLDER_NOTES, ".tmpaB3d12", path("x.unfinished.toml")),
-        ] {
-            fs::write(folder.join(name), text).unwrap();
-            assert_eq!(notes.left_behind_in(&folder.join(name)), None);
-            assert!(!folder.join(name).exists(), "{name}");
-        }
+        let path = folder.join("recording-aB3d12.note");
+        let gone = folder.join("x.unfinished-12.toml");
+        fs::write(&path, format!("{HEADING}{}", gone.display())).unwrap();
+        assert_eq!(left_behind_in(&path), None);
+        assert!(!path.exists());
     }
 
     #[test]

@@ -3,14 +3,14 @@
 use std::borrow::Cow;
 use std::fmt::Write;
 
-/// Whether a terminal may obey this character, or reorder other characters by it. Such characters are control
-/// characters, except line ends and tabs, and those that set the direction of writing.
+use crate::sim::text::hides_or_breaks;
+
+/// Whether a sign is hidden, except line ends and tabs.
 fn is_hidden(sign: char) -> bool {
-    sign.is_control() && !matches!(sign, '\n' | '\t')
-        || matches!(sign, '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}')
+    hides_or_breaks(sign) && !matches!(sign, '\n' | '\t')
 }
 
-/// Replaces control characters, and characters that set the direction of writing, by visible signs. A control character
+/// Replaces control characters, separators of lines, and characters that set the direction of writing, by visible signs. A control character
 /// becomes its picture in Unicode, if it has one. CRLF line ends stay.
 pub fn visible(text: &str) -> Cow<'_, str> {
     if !text.contains(is_hidden) {
@@ -60,7 +60,7 @@ mod tests {
     fn control_characters_become_visible_and_lines_are_kept() {
         assert_eq!(visible("a\tb\r\nc\n"), "a\tb\r\nc\n");
         assert_eq!(visible("\u{1b}[31m\u{7}\0\r\u{7f}"), "␛[31m␇␀␍␡");
-        assert_eq!(visible("\u{88}\u{9b}2J\u{202e}\u{2066}"), "��2J��");
+        assert_eq!(visible("\u{88}\u{9b}2J\u{202e}\u{2066}\u{2028}\u{2029}"), "��2J����");
         assert_eq!(visible_in_a_line("a\nthe same\r\n"), "a␊the same␍␊");
         assert!(matches!(visible("ü → ␛ e\u{301}"), Cow::Borrowed(_)));
     }

@@ -6,8 +6,6 @@ use std::rc::Rc;
 use glam::DVec2;
 
 use super::body::Body;
-#[cfg(feature = "lab")]
-use super::cores;
 use super::exact_flow::ExactFlow;
 use super::integrators::{
     Construct, Integrator, Method, MethodOf, Problem, StepFailure, Stepped, any_integrator,
@@ -87,10 +85,9 @@ struct BodyStepper<B: Body, D> {
     propagator: D,
 }
 
-impl<B: Body, D: Propagator<B>> BodyStepper<B, D> {
-    /// Advances on the calling thread.
-    #[inline]
-    fn advance_here(&mut self, t: f64, h: f64, substeps: u32) -> Stepped {
+impl<B: Body, D: Propagator<B> + Clone> Stepper for BodyStepper<B, D> {
+    fn advance(&mut self, t: f64, h: f64, substeps: u32) -> Stepped {
+        StepFailure::check_step(t, h, substeps)?;
         let Self { placed: BodyAtState { body, state, lost_before, lost_time, .. }, propagator } =
             self;
         let stepped = propagator.step(body, t, h, substeps, state);
@@ -99,19 +96,6 @@ impl<B: Body, D: Propagator<B>> BodyStepper<B, D> {
             *lost_time = *lost_before + lost;
         }
         stepped
-    }
-}
-
-impl<B: Body, D: Propagator<B> + Clone> Stepper for BodyStepper<B, D> {
-    fn advance(&mut self, t: f64, h: f64, substeps: u32) -> Stepped {
-        StepFailure::check_step(t, h, substeps)?;
-        #[cfg(feature = "lab")]
-        if self.placed.body.coupling() == Coupling::Few && cores::is_large(self.placed.q().len()) {
-            let mut stepped = Ok(());
-            cores::on_worker(&mut || stepped = self.advance_here(t, h, substeps));
-            return stepped;
-        }
-        self.advance_here(t, h, substeps)
     }
 
     fn change(&mut self, t: f64, change: Change<'_>) -> bool {

@@ -1,7 +1,6 @@
 //! The mathematics: a state, an equation of motion, and ways to step the state.
 //!
-//! This layer has no files, wall clocks or pixels. Threads only share loops, in `cores` and `batch`, which changes no
-//! bit. Everything that is stepped is `f64` and uses only `+ - × ÷ √` and `libm`, so that the same inputs give the same
+//! This layer has no files, wall clocks or pixels. Threads only share loops, in `batch`, which changes no bit. Everything that is stepped is `f64` and uses only `+ - × ÷ √` and `libm`, so that the same inputs give the same
 //! bits on every platform, in every build profile.
 
 #[cfg(feature = "batch")]
@@ -13,7 +12,6 @@ mod body_stepper;
 mod clock;
 #[cfg(feature = "lab")]
 pub mod conformance;
-mod cores;
 #[cfg(feature = "lab")]
 mod curve;
 mod double_double;
@@ -36,6 +34,8 @@ pub mod stability;
 mod state;
 mod stepper;
 mod system;
+#[cfg(feature = "lab")]
+pub(crate) mod text;
 mod tick_rate;
 mod vec_system;
 

@@ -1,12 +1,10 @@
 //! The plan of a net: the places of its nodes at the start, the fixed nodes, and the springs that join nodes.
 
 use std::collections::BTreeSet;
-use std::ops::Range;
 
 use super::number::counted;
 
-/// The maximum number of nodes of a net. On a grid with shear of this size, two cores make a few hundred evaluations a
-/// second. This speed lets a few lanes of explicit methods race at the rate of a display.
+/// The maximum number of nodes of a net. A grid with shear of this size takes some 50 MB, which its lanes share.
 pub const MAX_NODES: usize = 100_000;
 
 /// The maximum number of springs of a net. At eight per node, it is twice the number in a grid with shear.
@@ -255,19 +253,9 @@ impl Grid {
         }
     }
 
-    /// Returns the columns of the free nodes of a row.
-    #[inline]
-    pub(super) fn free_columns(&self, row: usize) -> Range<usize> {
-        match self.pin {
-            Some(Pin::Top) if row == 0 => 0..0,
-            Some(Pin::Corners) if row == 0 => 1..self.columns.saturating_sub(1).max(1),
-            _ => 0..self.columns,
-        }
-    }
-
     /// Returns the number of free nodes before a node.
     #[inline]
-    pub(super) fn free_before(&self, node: usize) -> usize {
+    fn free_before(&self, node: usize) -> usize {
         let fixed = match self.pin {
             None => 0,
             Some(Pin::Top) => node.min(self.columns),
@@ -278,19 +266,9 @@ impl Grid {
         node - fixed
     }
 
-    /// Returns the free node after `before` other free nodes.
-    pub(super) fn free_node(&self, before: usize) -> usize {
-        let fixed = match self.pin {
-            None => 0,
-            Some(Pin::Top) => self.columns,
-            Some(Pin::Corners) => 1 + usize::from(self.columns > 1 && before + 2 >= self.columns),
-        };
-        before + fixed
-    }
-
     /// Returns the springs that begin in a row, each with the column from which it runs [right or
     /// below](SpringDirection). Leaves out springs between fixed nodes.
-    pub(super) fn springs(
+    fn springs(
         &self,
         row: usize,
     ) -> impl Iterator<Item = (usize, SpringDirection)> + use<> {
@@ -316,7 +294,7 @@ impl Grid {
 
     /// Returns the nodes that a spring joins.
     #[inline]
-    pub(super) fn ends(&self, row: usize, column: usize, way: SpringDirection) -> [usize; 2] {
+    fn ends(&self, row: usize, column: usize, way: SpringDirection) -> [usize; 2] {
         let ([from, to], down) = way.ends();
         [row * self.columns + column + from, (row + down) * self.columns + column + to]
     }
@@ -324,7 +302,7 @@ impl Grid {
 
 /// The directions of the springs of a grid.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum SpringDirection {
+enum SpringDirection {
     /// The spring runs to the right.
     Right,
     /// The spring runs down.
@@ -342,7 +320,7 @@ impl SpringDirection {
     /// Returns the columns of both ends, relative to the spring's column, and the number of rows that the spring goes
     /// down.
     #[inline(always)]
-    pub(super) const fn ends(self) -> ([usize; 2], usize) {
+    const fn ends(self) -> ([usize; 2], usize) {
         match self {
             Self::Right => ([0, 1], 0),
             Self::Down => ([0, 0], 1),

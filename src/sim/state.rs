@@ -1,7 +1,5 @@
 //! Coordinate vectors, and the state of a body.
 
-use super::cores::in_parts;
-
 /// Numbers that are added and scaled one by one, which is all that the formula of a method with fixed steps needs.
 ///
 /// The numbers may be the [components](Vector) of one body, or one coordinate of each of several bodies stepped
@@ -153,63 +151,78 @@ impl<const N: usize> Vector for [f64; N] {
     }
 }
 
-/// All cores share the work on long vectors.
 impl Elementwise for Vec<f64> {
     #[inline]
     fn assign(&mut self, from: &Self) {
-        in_parts([self], [from], |[to], [from]| to.copy_from_slice(from));
+        assert_length(from.len(), self.len());
+        self.copy_from_slice(from);
     }
     #[inline]
     fn add_scaled(&mut self, h: f64, x: &Self) {
-        in_parts([self], [x], |[to], [x]| {
-            for (component, x) in to.iter_mut().zip(x) {
-                *component += h * x;
-            }
-        });
+        assert_length(x.len(), self.len());
+        for (component, x) in self.iter_mut().zip(x) {
+            *component += h * x;
+        }
+    }
+    #[inline]
+    fn scale(&mut self, h: f64) {
+        self.iter_mut().for_each(|component| *component *= h);
     }
     /// Computes the kick and the drift in one pass over the vectors.
     #[inline]
     fn kick_and_drift(k: f64, a: &Self, v: &mut Self, h: f64, q: &mut Self) {
-        in_parts([v, q], [a], |[v, q], [a]| {
-            for ((a, v), q) in a.iter().zip(v).zip(q) {
-                *v += k * a;
-                *q += h * *v;
-            }
-        });
+        assert_length(a.len(), v.len());
+        assert_length(q.len(), v.len());
+        for ((a, v), q) in a.iter().zip(v).zip(q) {
+            *v += k * a;
+            *q += h * *v;
+        }
     }
     /// Adds all terms in one pass over the vectors.
     #[inline]
     fn add_terms<const N: usize>(&mut self, terms: [(f64, &Self); N]) {
-        let scales = terms.map(|(h, _)| h);
-        in_parts([self], terms.map(|(_, x)| &x[..]), |[to], from| {
-            let from = from.map(|x| &x[..to.len()]);
-            for (i, component) in to.iter_mut().enumerate() {
-                for (h, x) in scales.iter().zip(from) {
-                    *component += h * x[i];
-                }
+        terms.iter().for_each(|(_, x)| assert_length(x.len(), self.len()));
+        let terms = terms.map(|(h, x)| (h, &x[..self.len()]));
+        for (i, component) in self.iter_mut().enumerate() {
+            for (h, x) in terms {
+                *component += h * x[i];
             }
-        });
+        }
     }
     #[inline]
     fn assign_sum(&mut self, x: &Self, h: f64, d: &Self) {
-        in_parts([self], [x, d], |[to], [x, d]| {
-            for ((component, x), d) in to.iter_mut().zip(x).zip(d) {
-                *component = x + h * d;
-            }
-        });
-    }
-    #[inline]
-    fn scale(&mut self, h: f64) {
-        in_parts([self], [], |[to], []| to.iter_mut().for_each(|component| *component *= h));
+        assert_length(x.len(), self.len());
+        assert_length(d.len(), self.len());
+        for ((component, x), d) in self.iter_mut().zip(x).zip(d) {
+            *component = x + h * d;
+        }
     }
     #[inline]
     fn assign_scaled(&mut self, h: f64, x: &Self) {
-        in_parts([self], [x], |[to], [x]| {
-            for (component, x) in to.iter_mut().zip(x) {
-                *component = h * x;
-            }
-        });
+        assert_length(x.len(), self.len());
+        for (component, x) in self.iter_mut().zip(x) {
+            *component = h * x;
+        }
     }
+}
+
+/// Checks that a system's vector still has the length that the system started with.
+///
+/// # Panics
+/// If the lengths differ.
+#[inline]
+pub(super) fn assert_length(found: usize, wanted: usize) {
+    if found != wanted {
+        other_length(found, wanted);
+    }
+}
+
+#[cold]
+fn other_length(found: usize, wanted: usize) -> ! {
+    panic!(
+        "a vector of {found} numbers meets one of {wanted}: all vectors of a system keep the length of its first \
+         state; `acceleration` must overwrite the numbers of `a`, not replace `a` by another `Vec`"
+    )
 }
 
 impl Vector for Vec<f64> {

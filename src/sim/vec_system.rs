@@ -2,7 +2,7 @@
 
 use std::cell::RefCell;
 
-use super::cores::assert_length;
+use super::state::assert_length;
 use super::state::{State, Vector};
 use super::system::{Coupling, Pursuit, Query, System};
 

@@ -12,7 +12,7 @@ use crate::run::race::{Entrant, Halt, LaneBody};
 use crate::scene::Mark;
 use crate::sim::number::{round, significant};
 use crate::studio::Studio;
-use crate::studio::{shown_state, shown_truth, slowed_in_words};
+use crate::studio::{pace_in_words, shown_state, shown_truth};
 
 /// Room of a scale bar at the right of a cell, in points.
 const BAR_MARGIN: f32 = 130.0;
@@ -32,6 +32,8 @@ const MAX_FOR_LANES: f32 = 0.28;
 const LANE_INSET: f32 = 8.0;
 /// Room (points) of a ghost's name besides its letters.
 const BESIDE_NAME: f32 = 18.0;
+/// Side of the sign of a pause, in points.
+const PAUSE: f32 = 34.0;
 /// Height (points) of an answer's lines above the foot of a cell, clear of the halts there.
 const ANSWER: [f32; 2] = [60.0, 44.0];
 /// Distance (points) of captions from the left edge of a wide cell.
@@ -223,8 +225,10 @@ fn beside_name(moment: &DrawContext<'_>, index: usize, body: &LaneBody) -> (Stri
             let truth = &studio.race().truth().bodies()[index];
             let (q, v) = shown_truth(&studio.deck, &studio.viewer, index);
             let motion = Look::of(truth).describe_motion(&q, &v);
-            let slowed = slowed_in_words(&studio.deck, &studio.viewer).filter(|_| index == 0);
-            motion.into_iter().chain(slowed).collect::<Vec<_>>().join(" · ")
+            // The bar above the instruments says it too.
+            let is_told = index == 0 && !studio.display().measure;
+            let pace = pace_in_words(&studio.deck, &studio.viewer).filter(|_| is_told);
+            motion.into_iter().chain(pace).collect::<Vec<_>>().join(" · ")
         }
     };
     (words, palette.dim)
@@ -272,6 +276,40 @@ fn span(label: &Label) -> [f32; 2] {
         Align::Right => label.at[0] - width,
     };
     [left, left + width]
+}
+
+/// Marks a paused stage by two bars above its scale bar.
+pub(super) fn pause(picture: &mut Picture, studio: &Studio, stage: Rect) {
+    let is_paused = match studio.loop_lab() {
+        Some(_) => !studio.running(),
+        None => !studio.deck.runs_or_rests(studio.display().motion),
+    };
+    let [width, height] = stage.size();
+    if !is_paused || width < breakpoints::PAUSE[0].into() || height < breakpoints::PAUSE[1].into() {
+        return;
+    }
+    let palette = studio.display().theme.palette();
+    let [right, bottom] = [stage.max[0] - 12.0, stage.max[1] - 36.0];
+    let sign = Rect { min: [right - PAUSE, bottom - PAUSE], max: [right, bottom] };
+    plate(picture, sign, fade(palette.text, 0.5), stage, palette);
+    let middle = right - PAUSE / 2.0;
+    for x in [middle - 8.0, middle + 2.5] {
+        let bar = rounded([x, sign.min[1] + 9.0], [x + 5.5, sign.max[1] - 9.0], 1.5);
+        picture.pen(stage).fill(&bar, palette.text);
+    }
+}
+
+/// Describes the futures at the foot of the cell, under their threads.
+pub(super) fn futures(picture: &mut Picture, rect: Rect, studio: &Studio, palette: &Palette) {
+    let Some([left, _]) = caption_place(rect) else { return };
+    let of = if studio.deck.offered() > 1 { " under each method" } else { "" };
+    let words = format!("the next second{of}, a dot a tick");
+    let width = LETTER * words.chars().count() as f32;
+    let middle = (rect.min[0] + rect.max[0]) / 2.0;
+    if width <= rect.max[0] - left {
+        let at = [middle.max(left + width / 2.0), rect.max[1] - 10.0];
+        picture.labels.push(text(palette, at, Align::Centre, 12.5, palette.text, words));
+    }
 }
 
 fn caption_place(rect: Rect) -> Option<[f32; 2]> {
@@ -546,6 +584,118 @@ mod tests {
             (0..20).for_each(|_| studio.tick());
             assert_eq!(words(&studio, [960.0, 560.0]), [wide], "changed at {ticks}");
             assert_eq!(words(&studio, [470.0, 330.0]), [narrow], "changed at {ticks}");
+        }
+    }
+
+    /// Whether the picture has the two bars of a pause at its foot.
+    fn has_sign_of_pause(studio: &Studio, size: [f32; 2]) -> bool {
+        let is_bar = |corners: &[([f32; 2], Rgba)]| {
+            let right = corners.iter().map(|(at, _)| at[0]).fold(f32::MIN, f32::max);
+            let left = corners.iter().map(|(at, _)| at[0]).fold(f32::MAX, f32::min);
+            right - left < 7.0 && left > size[0] - 60.0
+        };
+        let shapes = compose(studio, size).shapes;
+        let bars = shapes.iter().filter(|shape| match shape {
+            crate::stage::Shape::Fill(fill) => is_bar(&fill.corners),
+            crate::stage::Shape::Path(_) => false,
+        });
+        bars.count() == 2
+    }
+
+    #[test]
+    fn a_pause_is_marked_in_every_mode_and_a_rest_is_not() {
+        use crate::loops::loop_lab::LoopCommand;
+        use crate::studio::{Command, Motion, Step};
+        let size = [960.0, 560.0];
+        let prepared: [Option<Command>; 4] = [
+            None,
+            Some(StageCommand::ToggleRace.into()),
+            Some(LoopCommand::ToggleLab.into()),
+            Some(ViewCommand::ToggleMeasure.into()),
+        ];
+        let pauses: [Command; 3] = [
+            ViewCommand::TogglePause.into(),
+            ViewCommand::ToggleFutures.into(),
+            StageCommand::Tick(Step::Next).into(),
+        ];
+        for (prepare, pause) in prepared.iter().flat_map(|it| pauses.iter().map(move |p| (it, p))) {
+            let mut studio = Studio::new(Scene::built_in("harbour").unwrap());
+            studio.viewer.preferences.display.motion = Motion::Live;
+            prepare.iter().for_each(|command| _ = studio.apply(command.clone()));
+            assert!(!has_sign_of_pause(&studio, size), "{prepare:?}");
+            studio.apply(pause.clone());
+            assert!(has_sign_of_pause(&studio, size), "{prepare:?}, {pause:?}");
+            assert!(!has_sign_of_pause(&studio, [150.0, 100.0]), "no room");
+        }
+        let mut studio = Studio::new(Scene::built_in("spring").unwrap());
+        studio.viewer.preferences.display.motion = Motion::Live;
+        while studio.running() {
+            studio.advance(16_666_667);
+        }
+        assert!(!has_sign_of_pause(&studio, size), "a hint speaks of the end");
+    }
+
+    #[test]
+    fn the_fan_says_what_it_shows_on_the_stage_and_how_it_closes() {
+        use crate::studio::shows_futures;
+        let says = |studio: &Studio| {
+            let labels = compose(studio, [960.0, 560.0]).labels;
+            let is_it = |label: &&Label| label.text.starts_with("the next second");
+            labels.iter().filter(is_it).map(|label| label.text.clone()).collect::<Vec<_>>()
+        };
+        let expected = ["the next second under each method, a dot a tick"];
+        for scene in ["harbour", "pendulum", "spring"] {
+            let mut studio = Studio::new(Scene::built_in(scene).unwrap());
+            (0..20).for_each(|_| studio.tick());
+            assert_eq!(says(&studio), Vec::<String>::new());
+            studio.apply(ViewCommand::ToggleFutures);
+            assert_eq!(says(&studio), expected, "{scene}");
+            let hint = studio.hint().unwrap();
+            assert!(hint.contains("`F`") && hint.contains("`Esc`"), "{hint}");
+            studio.apply(ViewCommand::Escape);
+            assert!(!shows_futures(&studio) && says(&studio).is_empty(), "{scene}");
+            studio.apply(ViewCommand::TogglePause);
+            studio.apply(ViewCommand::PointerDown(true));
+            studio.apply(ViewCommand::HoldTickRate);
+            studio.apply(StageCommand::TickHz(12.into()));
+            assert_eq!(says(&studio), expected, "{scene}");
+            assert!(studio.hint().unwrap().starts_with("Let go"), "{scene}");
+        }
+    }
+
+    #[test]
+    fn landmarks_slow_time_only_at_real_time_and_the_caption_says_a_set_speed() {
+        use crate::studio::{Motion, pace_in_words};
+        for (percent, words) in
+            [(100, "slowed ×"), (25, "at ¼× speed"), (400, "at 4× speed"), (1600, "at 16× speed")]
+        {
+            let mut studio = Studio::new(Scene::built_in("stiff").unwrap());
+            studio.viewer.preferences.display.motion = Motion::Live;
+            studio.viewer.preferences.display.measure = false;
+            studio.apply(StageCommand::TickHz(49.into()));
+            studio.apply(RunCommand::SpeedPercent(percent));
+            let (mut frames, mut said) = (0, Vec::new());
+            while studio.running() && frames < 6000 {
+                studio.advance(16_666_667);
+                let captions = compose(&studio, [960.0, 560.0]).labels.into_iter();
+                let captions = captions.map(|label| label.text);
+                said.extend(
+                    captions.filter(|text| text.contains("speed") || text.contains("slow")),
+                );
+                frames += 1;
+            }
+            assert!(!said.is_empty(), "{percent}");
+            assert!(said.iter().all(|said| said.contains(words)), "{percent}: {said:?}");
+            let (real_s, t) = (f64::from(frames) / 60.0, studio.race().t());
+            let set_s = t / (f64::from(percent) / 100.0);
+            match percent {
+                100 => assert!((1.2 * set_s..99.0).contains(&real_s), "{real_s} s for {t} s"),
+                _ => assert!((real_s - set_s).abs() < 0.1, "{real_s} s at {percent} %"),
+            }
+            studio.apply(ViewCommand::ToggleMeasure);
+            let labels = compose(&studio, [960.0, 560.0]).labels;
+            assert!(!labels.iter().any(|label| label.text.contains("speed")), "the bar says it");
+            assert_eq!(pace_in_words(&studio.deck, &studio.viewer).is_some(), percent != 100);
         }
     }
 }

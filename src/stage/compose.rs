@@ -63,6 +63,7 @@ pub fn compose(studio: &Studio, size: [f32; 2]) -> Picture {
             side_by_side(&mut picture, &moment, stage, &ghosts, &entrants);
         }
     }
+    captions::pause(&mut picture, studio, stage);
     picture
 }
 
@@ -204,6 +205,7 @@ impl BodyCell<'_> {
         }
         if self.shows_futures() && self.lanes.iter().any(|lane| lane.id == studio.selected().id) {
             futures::draw(picture, moment, camera, framing, index);
+            captions::futures(picture, camera.rect, studio, palette);
         }
 
         let behind = self.lanes.iter().filter(|lane| !self.is_front(lane));

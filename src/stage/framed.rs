@@ -6,9 +6,9 @@ use super::Rect;
 use super::moment::{DrawContext, has_several_coordinates};
 use super::outgrown::{Room, in_steps, strayed_m};
 use super::sketch::Camera;
-use crate::look::{Framing, drawn_unit};
+use crate::look::{Framing, Look, drawn_unit};
 use crate::run::race::Entrant;
-use crate::studio::Motion;
+use crate::studio::{Motion, ZoomPan, shown_state};
 
 /// Height (points) at the head of a cell that a fixed camera leaves to the caption.
 const HEAD: f64 = 36.0;
@@ -168,7 +168,17 @@ impl DrawContext<'_> {
     pub(super) fn camera(&self, rect: Rect, index: usize, view: &BodyView) -> Camera {
         let unit = drawn_unit(&self.studio.race().truth().bodies()[index].kind);
         let camera = Camera { unit, ..self.fitted(rect, view) }.grown(view.grown);
-        camera.zoomed(self.studio.view().zoom_pan(view.zoomed_as))
+        let zoom_pan = self.studio.view().zoom_pan(view.zoomed_as);
+        if zoom_pan == ZoomPan::default() {
+            return camera;
+        }
+        // Bodies on one ruler move together across.
+        let [across, own] = [view.zoomed_as, index].map(|body| {
+            let body = &self.studio.selected().lane.bodies()[body];
+            let (q, _) = shown_state(&self.studio.deck, &self.studio.viewer, body);
+            rect.part(camera.points(Look::of(body).outline(self.t, &q).at))
+        });
+        camera.zoomed(zoom_pan.keeping([across[0], own[1]]))
     }
 
     fn fitted(&self, rect: Rect, view: &BodyView) -> Camera {

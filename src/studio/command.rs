@@ -222,8 +222,11 @@ pub enum ViewCommand {
     StopBeside(Step),
     /// Predicts this choice at the guide's stop, from 0.
     Predict(usize),
-    /// Releases or closes the first of these that there is: held body, dialog, help, guide, enlarged instrument,
-    /// inspector, loop lab. Otherwise quits, but at the second time only if there are unsaved edits.
+    /// Toggles the enlarged instrument, or quits if the program asks whether to quit.
+    Enter,
+    /// Takes the foremost of these away: body or tick rate in hand, dialog, help, guide, inspector, enlarged instrument,
+    /// futures, comparison, loop lab, race, full screen. If there is none, asks whether to quit, or answers that question
+    /// with no.
     Escape,
 }
 

@@ -139,9 +139,14 @@ impl FrameLoop {
         if self.studio.running() || !self.asked.is_empty() {
             return 0;
         }
-        let notice = self.studio.viewer.notice.as_ref().map(|notice| notice.left_ns());
-        let futures = Some(self.studio.viewer.futures_left_ns).filter(|&left| left > 0);
-        notice.into_iter().chain(futures).min().map_or(u64::MAX, i64::unsigned_abs)
+        let viewer = &self.studio.viewer;
+        let notices = [&viewer.notice, &viewer.quit_question].into_iter().flatten();
+        let futures = Some(viewer.futures_left_ns).filter(|&left| left > 0);
+        notices
+            .map(|notice| notice.left_ns())
+            .chain(futures)
+            .min()
+            .map_or(u64::MAX, i64::unsigned_abs)
     }
 
     /// Notes that the frame could not be drawn. Until the first frame of a scene is drawn, no time passes in its run.
@@ -275,5 +280,20 @@ mod tests {
         let due_ns = frame(&mut frames, 0, Vec::new());
         assert!((1_000_000_000..60_000_000_000).contains(&due_ns), "{due_ns} ns");
         assert_eq!(frame(&mut frames, 0, vec![pause]), 0, "a command waits");
+    }
+
+    #[test]
+    fn a_notice_and_a_question_stay_after_a_long_pause_before_their_key() {
+        let (mut frames, now_ns) = begun("spring");
+        frames.queue([ViewCommand::TogglePause.into()]);
+        frame(&mut frames, now_ns, Vec::new());
+        let later_ns = 600_000_000_000;
+        frames.queue([ViewCommand::UsualScale.into(), ViewCommand::Escape.into()]);
+        frame(&mut frames, later_ns, Vec::new());
+        assert!(frames.studio.viewer.notice.is_some());
+        assert!(frames.studio.viewer.quit_question().is_some());
+        frame(&mut frames, later_ns + 60_000_000_000, Vec::new());
+        assert!(frames.studio.viewer.notice.is_none());
+        assert!(frames.studio.viewer.quit_question().is_none());
     }
 }

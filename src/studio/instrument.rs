@@ -163,9 +163,8 @@ impl Instrument {
         self.name().to_lowercase().replace(' ', "-")
     }
 
-    /// Returns the instrument with this [id](Self::id), which may also be a former id.
+    /// Returns the instrument with this [id](Self::id).
     pub fn of_id(id: &str) -> Option<Self> {
-        let id = if id == "phase-portrait" { "phase" } else { id };
         Self::all().find(|instrument| instrument.id() == id)
     }
 

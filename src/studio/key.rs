@@ -197,7 +197,7 @@ pub static KEYS: &[Binding] = keys! {
         Sign('d') => Stage(StageCommand::InstrumentBeside(Step::Next)),
         ShiftSign('d') => Stage(StageCommand::InstrumentBeside(Step::Previous));
     once "Enter" "enlarge the instrument over the stage":
-        Enter => View(ViewCommand::ToggleEnlarged);
+        Enter => View(ViewCommand::Enter);
     once "Ctrl C, Ctrl E" "copy the instrument's values, or on a lane its method, or an engine's settings, as code; save as PNG, SVG and CSV":
         ControlSign('c') => View(ViewCommand::Copy), ControlSign('e') => Ask(DriverRequest::ExportInstrument);
     once "E" "Edit: parameters, methods and rates, while it runs":
@@ -220,8 +220,8 @@ pub static KEYS: &[Binding] = keys! {
     once "H, F1, ?" "help":
         Sign('h') => View(ViewCommand::ToggleHelp), Function(1) => View(ViewCommand::ToggleHelp),
         Sign('?') => View(ViewCommand::ToggleHelp);
-    once "Esc" "let go of a body, close the overlay, the guide, the instrument, Edit, leave the loop lab, or quit: twice where something would be lost"
-        or "let go of a body, close the overlay, the guide, the instrument, Edit, leave the loop lab; with Tab after it, leave the stage":
+    once "Esc" "take away, in turn: a body or the tick rate in hand, dialog, help, guide, Edit, instrument, fan, comparison, loop lab, race, full screen; then ask whether to quit"
+        or "take away, in turn: a body or the tick rate in hand, dialog, help, guide, Edit, instrument, fan, comparison, loop lab, race; with Tab after it, leave the stage":
         Escape => View(ViewCommand::Escape);
 };
 

@@ -29,6 +29,7 @@ mod deck;
 mod dispatch;
 mod display;
 mod driving;
+mod escaping;
 mod file_names;
 mod findings;
 mod frame_loop;
@@ -64,7 +65,7 @@ pub use command::{
 pub use compared::Compared;
 pub use deck::{Deck, HeldBody, PulledBody};
 pub use display::{Arrangement, Display, DriverRequest, Motion, Pace, Splits, View};
-pub use driving::{shown_s, shown_state, shown_tick, shown_truth, slowed_in_words};
+pub use driving::{pace_in_words, shown_s, shown_state, shown_tick, shown_truth, slowed_in_words};
 pub use file_names::{instrument_file_name, picture_file_name};
 pub use findings::{
     accept_findings, analyse_bounded, analysis_request, mappable_parameters, mapped_parameter,

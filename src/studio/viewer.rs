@@ -66,6 +66,8 @@ pub struct Preferences {
     pub(super) left_at: usize,
     /// Whether the driver keeps a recording of the run. If so, nothing is lost when the program ends.
     pub is_recorded: bool,
+    /// Whether the driver's window fills the screen.
+    pub is_full_screen: bool,
     /// Whether the driver is a page in a browser. A browser keeps some keys for itself, and a page cannot quit.
     pub is_page: bool,
 }
@@ -130,6 +132,7 @@ impl Default for Preferences {
             my_spring: MySpring::default(),
             left_at: 0,
             is_recorded: false,
+            is_full_screen: false,
             is_page: false,
         }
     }
@@ -150,6 +153,8 @@ pub struct Viewer {
     pub tick_times: Vec<(LaneSpec, Option<f64>)>,
     /// The latest message, while it is shown.
     pub notice: Option<Notice>,
+    /// The question before the program quits, while it is on the stage.
+    pub(super) quit_question: Option<Notice>,
     /// The last frames of the studio's own loop.
     pub live: LiveLoop,
     pub(super) findings: Option<Findings>,
@@ -271,21 +276,28 @@ impl Viewer {
         self.findings.as_ref()?.map.as_ref()
     }
 
+    /// Returns the question whether to quit, while it is shown. Its parts are lines, with keys between backticks.
+    pub fn quit_question(&self) -> Option<&Notice> {
+        self.quit_question.as_ref()
+    }
+
     /// Shows a message for some seconds.
     pub fn set_notice(&mut self, notice: impl Into<Notice>) {
         self.notice = Some(notice.into());
     }
 
-    /// Lets `ns` nanoseconds of real time pass, and removes a notice whose time is over.
+    /// Lets `ns` nanoseconds of real time pass, and removes a notice and a question whose time is over.
     pub fn pass_time(&mut self, ns: i64) {
         // The time before a key is not that of its futures.
         if !std::mem::take(&mut self.futures_are_new) {
             self.futures_left_ns = self.futures_left_ns.saturating_sub(ns).max(0);
         }
-        if let Some(notice) = &mut self.notice {
-            notice.pass_time(ns);
+        for shown in [&mut self.notice, &mut self.quit_question] {
+            if let Some(notice) = shown {
+                notice.pass_time(ns);
+            }
+            shown.take_if(|notice| notice.left_ns() == 0);
         }
-        self.notice.take_if(|notice| notice.left_ns() == 0);
     }
 
     /// Switches to the next interpolation between ticks, and shows the name of that interpolation.
@@ -363,7 +375,9 @@ impl Viewer {
                     | StageCommand::OpenSpring
             ),
             Command::Run(command) => *command == RunCommand::ToggleInspector,
-            Command::View(command) => *command == ViewCommand::ToggleEnlarged,
+            Command::View(command) => {
+                matches!(command, ViewCommand::ToggleEnlarged | ViewCommand::Enter)
+            }
             Command::Loop(_) | Command::Ask(_) => false,
         };
         self.preferences.display.measure |= is_about;

@@ -96,16 +96,6 @@ impl System for Sprung {
     }
 }
 
-/// Compiles only while a game that names the former paths does.
-#[test]
-fn deprecated_paths_lead_to_the_same_items() {
-    use regatta::lab::{analysis, cloud, loop_lab, pacing, palette, past, picture, race, session};
-    let _: Option<(past::Past, session::Replay, race::Entrant, cloud::Density, analysis::Unit)> =
-        None;
-    let _: Option<(palette::Theme, loop_lab::LoopLab, picture::Framing)> = None;
-    assert_eq!(pacing::POLICIES.len(), regatta::loops::POLICIES.len());
-}
-
 /// A field that is renamed or taken away does not compile here.
 #[test]
 fn a_report_has_the_promised_fields() {

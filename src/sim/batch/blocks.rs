@@ -5,14 +5,13 @@ use std::ops::Range;
 
 use super::instruction_set::{InstructionSet, Kernel, NARROW, WIDE};
 use super::{Advance, Chunks, Copies, Ticks};
-use crate::sim::cores;
 use crate::sim::integrators::{Construct, Integrator, Method, MethodOf};
 use crate::sim::state::State;
 use crate::sim::system::System;
 
 /// The number of copies that a thread handles at a time. Their state is 64 KiB, which fits the second-level cache of
 /// every processor. The number is a multiple of every block width.
-const GRAIN: usize = cores::GRAIN / 8;
+const GRAIN: usize = 1 << 12;
 
 /// The number of copies that a thread steps through all ticks before it continues with the next ones. Their state of 4
 /// KiB stays in the first-level cache. Unlike the ticks of one block, the blocks of these copies do not wait for each

@@ -1,25 +1,20 @@
 //! Masses joined by springs in the plane, for example a rope, a cloth or a bridge.
 //!
 //! The coordinates are those of the free nodes. The forces on a node are summed in the order of the plan's springs,
-//! first the springs to free nodes, then those to fixed nodes. That order is part of the definition, so that a large
-//! grid, whose nodes are summed side by side, has the same bits as a net given as lists.
+//! first the springs to free nodes, then those to fixed nodes. That order is part of the definition, so that a grid has
+//! the same bits as a net given as lists.
 
 use std::array::from_fn;
 use std::sync::{Arc, LazyLock};
 
 use super::kind::{Coordinates, Origin};
 use super::prelude::*;
-use crate::sim::batch::InstructionSet;
 use crate::sim::net_plan::{NetFault, NetPlan, PlannedSpring, distance};
 use crate::sim::parameter::Parameter;
 use forces::{Accelerations, Derivatives, Forces};
-use rows::{Nodes, RestLengths};
-use topology::{Storage, Topology};
+use topology::Topology;
 
 mod forces;
-mod rows;
-#[cfg(test)]
-mod tests;
 mod topology;
 
 type Of = ParameterOf<Net>;
@@ -77,19 +72,13 @@ pub struct Net {
 /// The springs of a net with its present parameters.
 #[derive(Debug, Default)]
 struct Springs {
-    /// Stiffness and damping of every spring of a grid, divided by the mass of a node.
-    shared: [f64; 2],
-    /// Rest lengths of the springs between free nodes of a grid.
-    rest: RestLengths,
-    /// The constants of each spring that the topology [keeps](Topology::kept). They are the stiffness and the damping,
-    /// each divided by the mass of a node, and the rest length.
+    /// The constants of each spring. They are the stiffness and the damping, each divided by the mass of a node, and
+    /// the rest length.
     constants: Vec<[f64; 3]>,
     /// Whether no spring is damped.
     are_elastic: bool,
     /// The bound that [`Net::fastest_rate`] returns.
     fastest_rate: f64,
-    /// Number of springs.
-    count: usize,
 }
 
 /// The other end of a spring that starts at a free node.
@@ -141,23 +130,11 @@ impl Net {
     /// Calls `see` for each spring, in the order of the sums. Its arguments are the index of a free end, the other end,
     /// and the constants.
     fn each_spring(&self, springs: &Springs, mut see: impl FnMut(usize, End, &[f64; 3])) {
-        let Springs { shared: [k, c], rest, constants, .. } = springs;
-        let of_anchors = match &self.topology.storage {
-            Storage::Rows(rows) => {
-                rows.each_spring(|[from, to], (row, column, way)| {
-                    see(from, End::Free(to), &[*k, *c, rest.of(row, column, way)]);
-                });
-                &constants[..]
-            }
-            Storage::Arrays(arrays) => {
-                let (inner, outer) = constants.split_at(arrays.ends.len());
-                for ([from, to], constants) in arrays.ends.iter().zip(inner) {
-                    see(*from as usize, End::Free(*to as usize), constants);
-                }
-                outer
-            }
-        };
-        for ((index, anchor), constants) in self.topology.anchors.iter().zip(of_anchors) {
+        let (inner, outer) = springs.constants.split_at(self.topology.ends.len());
+        for ([from, to], constants) in self.topology.ends.iter().zip(inner) {
+            see(*from as usize, End::Free(*to as usize), constants);
+        }
+        for ((index, anchor), constants) in self.topology.anchors.iter().zip(outer) {
             see(*index as usize, End::Fixed(*anchor), constants);
         }
     }
@@ -170,7 +147,7 @@ impl Net {
 
     /// Returns the number of springs.
     pub fn springs(&self) -> usize {
-        self.springs.count
+        self.springs.constants.len()
     }
 
     /// Returns the length of the shortest spring at the start, in metres.
@@ -191,7 +168,7 @@ impl Net {
 
     /// Returns the fastest frequency or rate of damping of any node, if all its neighbours move against the node.
     fn fastest(&self, springs: &Springs) -> f64 {
-        let mut sums = vec![[0.0; 2]; self.topology.free];
+        let mut sums = vec![[0.0; 2]; self.topology.free()];
         let mut add = |index: usize, [k, c, _]: &[f64; 3], times: f64| {
             let [stiffness, damping] = &mut sums[index];
             *stiffness += times * k;
@@ -210,33 +187,23 @@ impl Net {
     fn sum<const N: usize>(
         &self,
         forces: impl Forces<N>,
-        vectors: [Nodes<'_>; N],
+        vectors: [&[[f64; 2]]; N],
         sums: &mut [[f64; 2]],
     ) {
-        let Springs { shared, rest, constants, .. } = &*self.springs;
         let at = |node: usize| from_fn(|n| vectors[n][node]);
-        let of_anchors = match &self.topology.storage {
-            Storage::Rows(rows) => {
-                rows.sum(InstructionSet::widest(), forces, (*shared, rest), vectors, sums);
-                &constants[..]
-            }
-            Storage::Arrays(arrays) => {
-                for (node, sum) in sums.iter_mut().enumerate() {
-                    *sum = forces.on_node(at(node));
-                }
-                let (inner, outer) = constants.split_at(arrays.ends.len());
-                for ([i, j], constants) in arrays.ends.iter().zip(inner) {
-                    let (i, j) = (*i as usize, *j as usize);
-                    let f = forces.spring_force(constants, at(i), at(j));
-                    sums[i] = [sums[i][0] + f[0], sums[i][1] + f[1]];
-                    sums[j] = [sums[j][0] - f[0], sums[j][1] - f[1]];
-                }
-                outer
-            }
-        };
+        for (node, sum) in sums.iter_mut().enumerate() {
+            *sum = forces.on_node(at(node));
+        }
+        let (inner, outer) = self.springs.constants.split_at(self.topology.ends.len());
+        for ([i, j], constants) in self.topology.ends.iter().zip(inner) {
+            let (i, j) = (*i as usize, *j as usize);
+            let f = forces.spring_force(constants, at(i), at(j));
+            sums[i] = [sums[i][0] + f[0], sums[i][1] + f[1]];
+            sums[j] = [sums[j][0] - f[0], sums[j][1] - f[1]];
+        }
         // These zeros are negative because `-0.0 - x == -x` for every `x`, including ±0.
         let mut to = [[-0.0; 2]; N];
-        for ((i, anchor), constants) in self.topology.anchors.iter().zip(of_anchors) {
+        for ((i, anchor), constants) in self.topology.anchors.iter().zip(outer) {
             let i = *i as usize;
             to[0] = *anchor;
             let f = forces.spring_force(constants, at(i), to);
@@ -275,39 +242,26 @@ impl Body for Net {
     const PARAMETERS: &'static [Of] = &PARAMETERS;
 
     fn prepare(&mut self) {
-        let constants = |spring: &PlannedSpring, length: f64| {
+        let of = |spring: PlannedSpring| {
+            let length = distance(spring.between.map(|node| self.topology.place(node)));
             let stiffness = spring.stiffness.unwrap_or(self.stiffness);
             let damping = spring.damping.unwrap_or(self.damping);
             let rest = spring.rest.unwrap_or(self.rest_ratio * length);
             [stiffness / self.mass, damping / self.mass, rest]
         };
-        let of = |spring: PlannedSpring| {
-            constants(&spring, distance(spring.between.map(|node| self.topology.place(node))))
-        };
-        let rest = match &self.topology.storage {
-            Storage::Rows(rows) => RestLengths::new(&rows.grid, self.rest_ratio),
-            Storage::Arrays(_) => RestLengths::default(),
-        };
-        let [k, c, _] = constants(&PlannedSpring::default(), 0.0);
-        let constants: Vec<[f64; 3]> = self.topology.kept_springs().map(of).collect();
-        let mut springs = Springs { shared: [k, c], rest, constants, ..Default::default() };
-        let (mut count, mut are_elastic) = (0, true);
-        self.each_spring(&springs, |_, _, [_, c, _]| {
-            count += 1;
-            are_elastic &= *c == 0.0;
-        });
-        springs.are_elastic = are_elastic;
+        let constants: Vec<[f64; 3]> = self.topology.springs().map(of).collect();
+        let are_elastic = constants.iter().all(|[_, c, _]| *c == 0.0);
+        let mut springs = Springs { constants, are_elastic, fastest_rate: 0.0 };
         springs.fastest_rate = self.fastest(&springs);
-        springs.count = count;
         self.springs = Arc::new(springs);
     }
 
     fn start(&self) -> State<Vec<f64>> {
-        State { q: self.topology.start(), v: vec![0.0; 2 * self.topology.free] }
+        State { q: self.topology.start(), v: vec![0.0; 2 * self.topology.free()] }
     }
 
     fn reference_work(&self) -> f64 {
-        EVALUATIONS_PER_RADIAN * self.springs.fastest_rate * self.springs.count as f64
+        EVALUATIONS_PER_RADIAN * self.springs.fastest_rate * self.springs() as f64
     }
 
     fn energy(&self, state: &State<Vec<f64>>) -> Option<f64> {
@@ -325,7 +279,7 @@ impl Body for Net {
 
     fn input(&mut self, input: Input, state: &mut State<Vec<f64>>) -> bool {
         let Input::Kick(times) = input else { return false };
-        let kicked = if self.topology.kicks_first { 1 } else { self.topology.free };
+        let kicked = if self.topology.kicks_first { 1 } else { self.topology.free() };
         for [vx, vy] in &mut Self::nodes_mut(&mut state.v)[..kicked] {
             *vx += times * self.kick.x;
             *vy += times * self.kick.y;
@@ -391,17 +345,17 @@ pub fn net_kind(plan: NetPlan) -> Result<Arc<Kind>, Vec<NetFault>> {
     }))
 }
 
-/// Returns the names of the coordinates. A large grid computes the names. A smaller net lists them, so that halting
+/// The number of free nodes from which the names of coordinates are computed rather than listed.
+const MANY_NODES: usize = 2048;
+
+/// Returns the names of the coordinates. A large net computes the names. A smaller net lists them, so that halting
 /// allocates nothing.
 fn coordinates(topology: &Arc<Topology>) -> Coordinates {
-    let (of, count) = (topology.clone(), 2 * topology.free);
+    let (of, count) = (topology.clone(), 2 * topology.free());
     let names = move |index: usize| {
         let (axis, node) = (['x', 'y'][index % 2], of.node_at(index / 2));
         [format!("{axis}{node}"), format!("v{axis}{node}")]
     };
     let by_rule = Coordinates::by_rule(count, "m", Arc::new(names));
-    match topology.storage {
-        Storage::Rows(_) => by_rule,
-        Storage::Arrays(_) => by_rule.iter().collect::<Vec<_>>().into(),
-    }
+    if topology.free() < MANY_NODES { by_rule.iter().collect::<Vec<_>>().into() } else { by_rule }
 }

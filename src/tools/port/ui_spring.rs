@@ -69,8 +69,6 @@ enum Steps {
 pub struct UiSpring {
     /// Id on the command line.
     pub id: &'static str,
-    /// Id in an earlier release, which is still accepted.
-    pub former_id: Option<&'static str>,
     /// Name for people.
     pub name: &'static str,
     /// The numbers that the library takes, up to four.
@@ -175,14 +173,9 @@ fn curve(wish: &Wish, [duration, points, ..]: Values) -> (String, f64) {
 }
 
 impl UiSpring {
-    /// Returns the dialect with this id or former id.
+    /// Returns the dialect with this id.
     pub fn of_id(id: &str) -> Option<&'static Self> {
-        UI_SPRINGS.iter().find(|dialect| dialect.ids().any(|own| own == id))
-    }
-
-    /// Returns the library's id, and then its former id.
-    pub fn ids(&self) -> impl Iterator<Item = &'static str> + use<> {
-        [self.id].into_iter().chain(self.former_id)
+        UI_SPRINGS.iter().find(|dialect| dialect.id == id)
     }
 
     /// Returns the version against which the card was checked, and how, in words; `None` for code of your own.

@@ -120,6 +120,8 @@ pub(super) struct Dialect {
     pub(super) last_value: &'static str,
     /// Words that are spelt differently from the sources, each with its spelling.
     pub(super) words: &'static [(&'static str, &'static str)],
+    /// Names that mean something else in the language, or in the code around the lines, between blanks.
+    pub(super) reserved: &'static str,
 }
 
 const RUST: Dialect = Dialect {
@@ -167,6 +169,9 @@ const RUST: Dialect = Dialect {
         ("cosh", "TYPE::cosh"),
         ("tanh", "TYPE::tanh"),
     ],
+    reserved: "_ as async await become box break const continue crate do dyn else enum extern false final fn for gen if \
+               impl in let loop macro match mod move mut override priv pub ref return self Self static struct super trait \
+               true try type typeof unsafe unsized use virtual where while yield None Some Ok Err",
 };
 
 const C: Dialect = Dialect {
@@ -207,6 +212,18 @@ const C: Dialect = Dialect {
         ("cosh", "coshSUFFIX"),
         ("tanh", "tanhSUFFIX"),
     ],
+    reserved: "alignas alignof and and_eq asm auto bitand bitor bool break case catch char char8_t char16_t char32_t class \
+               co_await co_return co_yield compl concept const const_cast consteval constexpr constinit continue decltype \
+               default delete do double dynamic_cast else enum explicit export extern false float for friend goto if inline \
+               int long mutable namespace new noexcept not not_eq nullptr operator or or_eq private protected public \
+               register reinterpret_cast requires restrict return short signed sizeof static static_assert static_cast \
+               struct switch template this thread_local throw true try typedef typeid typename typeof typeof_unqual union \
+               unsigned using virtual void volatile wchar_t while xor xor_eq _Alignas _Alignof _Atomic _BitInt _Bool \
+               _Complex _Decimal128 _Decimal32 _Decimal64 _Generic _Imaginary _Noreturn _Static_assert _Thread_local linux \
+               unix NAN INFINITY HUGE_VAL HUGE_VALF HUGE_VALL M_E M_PI M_SQRT2 fpclassify isfinite isinf isnan isnormal \
+               signbit acosh asinh atanh cbrt copysign drem erf erfc exp2 expm1 fdim fma fmod frexp gamma ilogb j0 j1 jn \
+               ldexp lgamma llrint llround log log10 log1p log2 logb lrint lround modf nearbyint nextafter remainder remquo \
+               rint round scalb scalbln scalbn significand tgamma trunc y0 y1 yn position velocity user",
     ..RUST
 };
 
@@ -242,6 +259,12 @@ const C_SHARP: Dialect = Dialect {
         ("cosh", "CASTMath.Cosh"),
         ("tanh", "CASTMath.Tanh"),
     ],
+    reserved: "abstract as async await base bool break byte case catch char checked class const continue decimal default \
+               delegate do double else enum event explicit extern false finally fixed float for foreach goto if implicit in \
+               int interface internal is lock long namespace new null object operator out override params private protected \
+               public readonly ref return sbyte sealed short sizeof stackalloc static string struct switch this throw true \
+               try typeof uint ulong unchecked unsafe ushort using var virtual void volatile while yield Func Math Memory \
+               Step",
     ..C
 };
 
@@ -265,4 +288,9 @@ const GD_SCRIPT: Dialect = Dialect {
     return_value: "return VALUE",
     last_value: "return VALUE",
     words: &[("nan", "NAN"), ("abs", "absf"), ("min", "minf"), ("max", "maxf"), ("ln", "log")],
+    reserved: "and as assert await bool break breakpoint class class_name const continue elif else enum extends false float \
+               for func if in int is match namespace not null or pass preload return self signal static super trait true \
+               var void when while yield PI TAU INF NAN absf maxf minf log sqrt exp pow ceil floor sin cos tan asin acos \
+               atan atan2 sinh cosh tanh is_nan call callv connect disconnect free get get_class get_meta get_script \
+               has_method has_signal is_class new notification script set set_meta set_script tr tr_n",
 };

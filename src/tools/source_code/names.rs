@@ -1,7 +1,9 @@
 //! Writes the names and expressions of a source in a language.
 
+use std::collections::BTreeMap;
+
 use super::dialect::{Language, Precision};
-use super::program::{Function, MethodInput};
+use super::program::{Function, MethodInput, Program};
 
 /// The names inside one function.
 pub(super) struct Names<'a> {
@@ -15,6 +17,50 @@ pub(super) struct Names<'a> {
     pub(super) inputs: &'a [MethodInput<'a>],
     /// Functions that the function can call.
     pub(super) functions: &'a [Function<'a>],
+    /// Spellings of the program's names in the language.
+    pub(super) spellings: &'a BTreeMap<&'a str, String>,
+}
+
+/// Returns the spelling of each name that a program declares. A word of the language gets another, and no two names
+/// share one.
+pub(super) fn spellings<'a>(
+    program: &Program<'a>,
+    language: Language,
+) -> BTreeMap<&'a str, String> {
+    let mut spellings = BTreeMap::new();
+    let mut taken = Vec::new();
+    for name in program.names() {
+        let mut free = name.to_owned();
+        while is_reserved(language, &spelt(language, &free))
+            || taken.contains(&spelt(language, &free))
+        {
+            free += "_own";
+        }
+        taken.push(spelt(language, &free));
+        spellings.insert(name, spelt(language, &free));
+    }
+    spellings
+}
+
+/// Whether a name has a meaning of its own in the language.
+pub(super) fn is_reserved(language: Language, name: &str) -> bool {
+    let dialect = language.dialect();
+    dialect.reserved.split_whitespace().any(|word| word == name)
+        || dialect.words.iter().any(|(_, word)| word.trim_end_matches("SUFFIX") == name)
+}
+
+/// Returns a name in the case of the language.
+fn spelt(language: Language, name: &str) -> String {
+    if language != Language::CSharp || name.starts_with('_') {
+        return name.to_owned();
+    }
+    let pascal = pascal(name);
+    // Constants are in capitals in the source, but in Pascal case here.
+    if name.chars().any(|c| c.is_ascii_lowercase()) {
+        let (first, rest) = pascal.split_at(pascal.len().min(1));
+        return first.to_lowercase() + rest;
+    }
+    pascal
 }
 
 /// Whether one of the inputs is a function.
@@ -34,16 +80,7 @@ pub(super) fn pascal(snake: &str) -> String {
 impl Names<'_> {
     /// Returns the name of a number or an input.
     pub(super) fn name(&self, name: &str) -> String {
-        if self.language != Language::CSharp {
-            return name.to_owned();
-        }
-        let pascal = pascal(name);
-        // Constants are in capitals in the source, but in Pascal case here.
-        if name.chars().any(|c| c.is_ascii_lowercase()) {
-            let (first, rest) = pascal.split_at(pascal.len().min(1));
-            return first.to_lowercase() + rest;
-        }
-        pascal
+        self.spellings.get(name).cloned().unwrap_or_else(|| spelt(self.language, name))
     }
 
     /// Returns the function's name, prefixed with the method's id so that several methods fit in one file.
@@ -149,7 +186,8 @@ impl Names<'_> {
             let converted = dialect.fill_precision(dialect.converted, self.precision);
             return converted.replace("NAME", &self.name(word));
         }
-        let written = dialect.words.iter().find(|(source, _)| *source == word);
+        let is_own = !is_call && self.spellings.contains_key(word);
+        let written = dialect.words.iter().find(|(source, _)| *source == word && !is_own);
         written.map_or_else(
             || self.name(word),
             |(_, written)| dialect.fill_precision(written, self.precision),
@@ -187,7 +225,8 @@ mod tests {
         };
         let (inputs, functions) = ([a, k], [solve]);
         let (inputs, functions) = (&inputs[..], &functions[..]);
-        Names { id: "my-method", language, precision, whole: vec!["n"], inputs, functions }
+        let (whole, spellings) = (vec!["n"], &BTreeMap::new());
+        Names { id: "my-method", language, precision, whole, inputs, functions, spellings }
             .expression(text)
     }
 

@@ -1,8 +1,11 @@
 //! Prints a program in a language, line by line.
 
+use std::collections::BTreeMap;
+
 use super::dialect::{Dialect, Language, Precision};
-use super::names::{Names, pascal, takes_function};
+use super::names::{Names, is_reserved, pascal, spellings, takes_function};
 use super::program::{Function, Line, MethodInput, Program, whole_numbers};
+use crate::sim::text::hides_or_breaks;
 
 /// Maximum length of a line, in characters. A longer line is broken at its commas.
 const LINE_CHARS: usize = 100;
@@ -15,7 +18,9 @@ pub(super) fn print(
     precision: Precision,
     header: &[String],
 ) -> String {
-    let mut printer = Printer { id, program, language, precision, text: String::new(), depth: 0 };
+    let spellings = spellings(program, language);
+    let text = String::new();
+    let mut printer = Printer { id, program, language, precision, spellings, text, depth: 0 };
     for line in header {
         printer.print_comment(line);
     }
@@ -28,6 +33,7 @@ struct Printer<'a> {
     program: &'a Program<'a>,
     language: Language,
     precision: Precision,
+    spellings: BTreeMap<&'a str, String>,
     text: String,
     depth: usize,
 }
@@ -44,12 +50,16 @@ impl Printer<'_> {
     /// Returns the names inside a function with these inputs.
     fn names<'a>(&'a self, inputs: &'a [MethodInput<'a>], body: &'a [Line<'a>]) -> Names<'a> {
         let Self { id, language, precision, .. } = *self;
-        let whole = whole_numbers(inputs, body);
-        Names { id, language, precision, whole, inputs, functions: &self.program.functions }
+        let (whole, spellings) = (whole_numbers(inputs, body), &self.spellings);
+        let functions = &self.program.functions;
+        Names { id, language, precision, whole, inputs, functions, spellings }
     }
 
     fn print_file(&mut self) {
-        let snake = self.id.replace('-', "_");
+        let mut snake = self.id.replace('-', "_");
+        if is_reserved(self.language, &snake) {
+            snake += "_own";
+        }
         let pascal = pascal(&snake);
         self.push_lines(&[""]);
         match self.language {
@@ -102,7 +112,7 @@ impl Printer<'_> {
                     format!("fn default() -> Self {{\n        Self {{ {} }}", values.join(", "));
                 let close =
                     format!("}}\n\nimpl Default for {pascal}Memory {{\n    {start}\n    }}\n}}");
-                (open, each(&format!("    NAME: {number},")), close)
+                (open, each(&format!("    pub NAME: {number},")), close)
             }
             Language::C => {
                 let values: Vec<&str> = starts.iter().map(|(_, start)| &**start).collect();
@@ -334,9 +344,12 @@ impl Printer<'_> {
         self.push_lines(lines);
     }
 
+    /// Prints a comment of one line. Of a person's remark, it leaves out signs that end a line or reorder it in some
+    /// language, and a backslash by which C would continue it.
     fn print_comment(&mut self, text: &str) {
+        let text = text.replace(hides_or_breaks, " ");
         let line = format!("{} {text}", self.dialect().comment);
-        self.push_lines(&[line.trim_end()]);
+        self.push_lines(&[line.trim_end_matches(['\\', ' '])]);
     }
 
     /// Adds lines at the present depth.

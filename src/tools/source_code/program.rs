@@ -1,5 +1,7 @@
 //! Reads the source of a method.
 
+use std::collections::BTreeSet;
+
 use super::dialect::Language;
 
 /// An input of the function besides `x`, `v` and `h`.
@@ -169,6 +171,25 @@ impl<'a> Program<'a> {
             }
         }
         program
+    }
+
+    /// Returns the names of numbers and inputs that the program declares, after those of its state.
+    pub(super) fn names(&self) -> Vec<&'a str> {
+        let mut names = vec!["x", "v", "h", "memory"];
+        let inputs = self.functions.iter().flat_map(|function| &function.inputs);
+        names.extend(self.inputs.iter().chain(inputs).map(|input| input.name));
+        names.extend(self.memory.iter().map(|field| field.name));
+        let lines = self.functions.iter().flat_map(|function| &function.body);
+        names.extend(self.body.iter().chain(lines).filter_map(|line| match line {
+            Line::Constant { name, .. }
+            | Line::Let { name, .. }
+            | Line::Var { name, .. }
+            | Line::Counter { name, .. } => Some(*name),
+            _ => None,
+        }));
+        let mut seen = BTreeSet::new();
+        names.retain(|name| seen.insert(*name));
+        names
     }
 
     /// Whether the step uses the value of `name` other than to assign it.

@@ -2,9 +2,11 @@
 
 use regatta::run::Race;
 use regatta::scene::{LaneSpec, Scene};
+use regatta::sim::bodies::{MAX_NODES, Pin};
 use regatta::sim::integrators::method;
 use regatta::studio::Studio;
 
+use super::{PLAIN, build, grid, with};
 use crate::scenes::edited;
 
 fn parse(net: &str) -> Scene {
@@ -85,4 +87,12 @@ fn the_scenes_keep_the_promises_of_their_hints() {
     ] {
         assert_eq!(holds(name, id, tick_hz), wanted, "{name}, {id}, {tick_hz} Hz");
     }
+}
+
+#[test]
+fn a_net_has_at_most_a_hundred_thousand_nodes() {
+    let net = build(&grid(400, 250, Some(Pin::Corners)), PLAIN, with("semi-implicit-euler"));
+    assert_eq!(net.q().len(), 2 * (MAX_NODES - 2));
+    let said = grid(401, 250, None).faults().remove(0);
+    assert_eq!(said.what, "the grid has 100250 nodes");
 }

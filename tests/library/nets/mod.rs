@@ -7,7 +7,6 @@ use regatta::sim::{Solver, Stepper};
 mod files;
 mod implicit;
 mod motion;
-mod rows;
 mod verdicts;
 
 /// The parameters of a net of nodes of 20 g, without gravity, damping and drag.

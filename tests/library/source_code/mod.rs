@@ -9,3 +9,4 @@ mod gdscript;
 mod held;
 pub(crate) mod known;
 mod text;
+mod words;

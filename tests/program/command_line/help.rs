@@ -4,7 +4,7 @@ use regatta::commands::Cli;
 use regatta::manual::CHAPTERS;
 use regatta::scene::SCENES;
 
-use super::{run, run_in, stderr, stdout_of};
+use super::{run, stderr, stdout_of};
 
 #[test]
 fn every_chapter_of_the_manual_is_printed_unchanged() {
@@ -97,23 +97,4 @@ fn help_on_an_unknown_name_suggests_the_nearest() {
     let said = stderr(&output);
     let meant = "error: no command and no chapter is called `scene`; did you mean `scenes`?\n";
     assert!(said.starts_with(meant), "{said}");
-}
-
-#[test]
-fn former_option_names_work_for_one_release_but_are_not_shown() {
-    let engine = "--to engine-box2d";
-    assert_eq!(
-        stdout_of(&format!("port --want 2Hz --zeta 0.2 {engine}")),
-        stdout_of(&format!("port --frequency 2 --damping-ratio 0.2 {engine}"))
-    );
-    let folder = tempfile::tempdir().unwrap();
-    for (old, new) in [("cloud --size 0.1", "--reach"), ("loop --frames a.csv", "--frame-rows")] {
-        let (command, option) = old.split_once(' ').unwrap();
-        let options = "--scene spring --seconds 0.2";
-        let run = run_in(folder.path(), &format!("{command} {options} {option}"));
-        assert_eq!(run.status.code(), Some(0), "{}", stderr(&run));
-        let help = stdout_of(&format!("help {command}"));
-        let old = option.split(' ').next().unwrap();
-        assert!(help.contains(new) && !help.contains(&format!("{old} <")), "{help}");
-    }
 }

@@ -2,91 +2,63 @@
 
 use std::sync::Arc;
 
-use super::rows::Rows;
-use crate::sim::net_plan::{Lists, NetLayout, NetPlan, PlannedSpring};
+use crate::sim::net_plan::{Lists, NetPlan, PlannedSpring};
 
 /// The index of a fixed node, which has no coordinates.
 const FIXED: u32 = u32::MAX;
 
-/// The minimum number of nodes of a grid that is stepped by rows. Lists are as fast for a smaller grid.
-const MIN_ROWS_NODES: usize = 2048;
-
-/// The data that all bodies of one plan share.
+/// The data that all bodies of one plan share. The kicked node, or else the last free node, comes first in a vector,
+/// because plots show the first coordinate. The others follow in the order of their numbers.
 #[derive(Debug)]
 pub(super) struct Topology {
-    pub(super) plan: Arc<NetPlan>,
-    pub(super) storage: Storage,
-    /// Number of free nodes.
-    pub(super) free: usize,
-    /// For each spring with a fixed end, the index of its free node and the position of its fixed end.
-    pub(super) anchors: Vec<(u32, [f64; 2])>,
-    /// Whether a kick hits only the first free node, rather than all free nodes.
-    pub(super) kicks_first: bool,
-}
-
-/// The order of the free nodes in a vector. The kicked node, or else the last free node, comes first, because plots
-/// show the first coordinate. The others follow in the order of their numbers.
-#[derive(Debug)]
-pub(super) enum Storage {
-    /// A large grid.
-    Rows(Rows),
-    /// A net of lists, or a small grid converted to lists.
-    Arrays(Arrays),
-}
-
-/// The nodes and springs of lists, in arrays.
-#[derive(Debug)]
-pub(super) struct Arrays {
+    plan: Arc<NetPlan>,
+    /// The place of each node at the start, in metres.
+    places: Vec<[f64; 2]>,
     /// The number of each free node.
     free: Vec<u32>,
     /// The index of each node among the free nodes, or [`FIXED`].
     index_of: Vec<u32>,
     /// The indices of the ends of each spring between free nodes.
     pub(super) ends: Vec<[u32; 2]>,
+    /// For each spring with a fixed end, the index of its free node and the position of its fixed end.
+    pub(super) anchors: Vec<(u32, [f64; 2])>,
+    /// Whether a kick hits only the first free node, rather than all free nodes.
+    pub(super) kicks_first: bool,
 }
 
 impl Topology {
     /// Prepares a plan without [faults](NetPlan::faults).
     pub(super) fn new(plan: Arc<NetPlan>) -> Self {
-        let by_rows = matches!(plan.form, NetLayout::Grid(grid) if grid.nodes() >= MIN_ROWS_NODES);
-        Self::laid_out(plan, by_rows)
-    }
-
-    /// Prepares a plan. A grid is stored by rows if `by_rows` is true, and otherwise as lists.
-    pub(super) fn laid_out(plan: Arc<NetPlan>, by_rows: bool) -> Self {
-        let storage = match &plan.form {
-            NetLayout::Grid(grid) if by_rows => Storage::Rows(Rows::new(*grid, plan.kicked)),
-            NetLayout::Grid(grid) => Storage::Arrays(Arrays::new(&grid.lists(), plan.kicked)),
-            NetLayout::Lists(lists) => Storage::Arrays(Arrays::new(lists, plan.kicked)),
-        };
-        let free = match &storage {
-            Storage::Rows(rows) => rows.len(),
-            Storage::Arrays(arrays) => arrays.free.len(),
-        };
-        let kicks_first = plan.kicked.is_some();
-        let mut topology = Self { plan, storage, free, anchors: Vec::new(), kicks_first };
-        let anchors = topology.anchored().map(|PlannedSpring { between: [a, b], .. }| {
-            let of = |node| topology.index_of(node).map(|index| index as u32);
-            match (of(a), of(b)) {
-                (Some(index), _) => (index, topology.place(b)),
-                (None, index) => (index.expect("a free end"), topology.place(a)),
+        let Lists { nodes: places, fixed, springs } = plan.lists();
+        let mut index_of = vec![0; places.len()];
+        fixed.iter().for_each(|&node| index_of[node] = FIXED);
+        let mut free: Vec<u32> =
+            (0..places.len() as u32).filter(|&it| index_of[it as usize] != FIXED).collect();
+        let is_kicked = |&node: &u32| plan.kicked == Some(node as usize);
+        let first = free.iter().position(is_kicked).unwrap_or(free.len() - 1);
+        free[..=first].rotate_right(1);
+        for (index, &node) in free.iter().enumerate() {
+            index_of[node as usize] = index as u32;
+        }
+        let (mut ends, mut anchors) = (Vec::new(), Vec::new());
+        for spring in springs {
+            match spring.between.map(|node| index_of[node]) {
+                [index, FIXED] => anchors.push((index, places[spring.between[1]])),
+                [FIXED, index] => anchors.push((index, places[spring.between[0]])),
+                free_ends => ends.push(free_ends),
             }
-        });
-        topology.anchors = anchors.collect();
-        topology
+        }
+        let kicks_first = plan.kicked.is_some();
+        Self { plan, places, free, index_of, ends, anchors, kicks_first }
     }
 
-    /// Returns the springs whose constants are kept, in the order of the sums. These are all springs of lists, or the
-    /// springs of rows that have a fixed end.
-    pub(super) fn kept_springs(&self) -> impl Iterator<Item = PlannedSpring> + '_ {
-        let is_kept = |_: &PlannedSpring| matches!(self.storage, Storage::Arrays(_));
-        let inner = self.plan.springs().filter(is_kept).filter(|it| !self.is_anchored(it));
-        inner.chain(self.anchored())
-    }
-
-    /// Returns the springs with a fixed end, in the order of the plan.
-    fn anchored(&self) -> impl Iterator<Item = PlannedSpring> + '_ {
-        self.plan.springs().filter(|spring| self.is_anchored(spring))
+    /// Returns the springs in the order of the sums, which is that of the plan, those between free nodes first.
+    pub(super) fn springs(&self) -> impl Iterator<Item = PlannedSpring> + '_ {
+        let with_fixed_end = |wanted: bool| {
+            let is_wanted = move |spring: &PlannedSpring| self.is_anchored(spring) == wanted;
+            self.plan.springs().filter(is_wanted)
+        };
+        with_fixed_end(false).chain(with_fixed_end(true))
     }
 
     /// Whether either end of a spring is fixed.
@@ -96,51 +68,27 @@ impl Topology {
 
     /// Returns the place of a node at the start.
     pub(super) fn place(&self, node: usize) -> [f64; 2] {
-        match &self.plan.form {
-            NetLayout::Grid(grid) => grid.place(node),
-            NetLayout::Lists(lists) => lists.nodes[node],
-        }
+        self.places[node]
     }
 
     /// Returns the index of a node among the free nodes; `None` if the node is fixed.
     #[inline]
     pub(super) fn index_of(&self, node: usize) -> Option<usize> {
-        match &self.storage {
-            Storage::Rows(rows) => (!rows.grid.is_fixed(node)).then(|| rows.index_of(node)),
-            Storage::Arrays(arrays) => {
-                Some(arrays.index_of[node]).filter(|&it| it != FIXED).map(|index| index as usize)
-            }
-        }
+        Some(self.index_of[node]).filter(|&it| it != FIXED).map(|index| index as usize)
+    }
+
+    /// Returns the number of free nodes.
+    pub(super) fn free(&self) -> usize {
+        self.free.len()
     }
 
     /// Returns the number of the free node with this index.
     pub(super) fn node_at(&self, index: usize) -> usize {
-        match &self.storage {
-            Storage::Rows(rows) => rows.node_at(index),
-            Storage::Arrays(arrays) => arrays.free[index] as usize,
-        }
+        self.free[index] as usize
     }
 
     /// Returns the places of the free nodes at the start.
     pub(super) fn start(&self) -> Vec<f64> {
-        (0..self.free).flat_map(|index| self.place(self.node_at(index))).collect()
-    }
-}
-
-impl Arrays {
-    fn new(lists: &Lists, kicked: Option<usize>) -> Self {
-        let mut index_of = vec![0; lists.nodes.len()];
-        lists.fixed.iter().for_each(|&node| index_of[node] = FIXED);
-        let mut free: Vec<u32> =
-            (0..lists.nodes.len() as u32).filter(|&it| index_of[it as usize] != FIXED).collect();
-        let first = kicked.and_then(|kicked| free.iter().position(|&node| node as usize == kicked));
-        let first = first.unwrap_or(free.len() - 1);
-        free[..=first].rotate_right(1);
-        for (index, &node) in free.iter().enumerate() {
-            index_of[node as usize] = index as u32;
-        }
-        let ends = lists.springs.iter().map(|spring| spring.between.map(|node| index_of[node]));
-        let ends = ends.filter(|ends| !ends.contains(&FIXED)).collect();
-        Self { free, index_of, ends }
+        self.free.iter().flat_map(|&node| self.place(node as usize)).collect()
     }
 }

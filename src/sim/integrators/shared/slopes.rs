@@ -6,8 +6,8 @@
 //! A difference that only steers an iteration is a forward difference from the known force. It is so short that a
 //! corner of the force is seldom within its reach.
 
-use crate::sim::cores::assert_length;
 use crate::sim::numerics::quotient;
+use crate::sim::state::assert_length;
 use crate::sim::state::{State, Vector, largest};
 use crate::sim::system::{Query, System};
 

@@ -55,52 +55,29 @@ const WRITTEN_OUT: [(&str, &str); 3] = [
     ("hypot", "fn hypot(x, y) {\n    return sqrt(x * x + y * y)\n}\n"),
 ];
 
-/// Names that a language, or the code around the lines, already uses.
-const TAKEN: [&str; 45] = [
+/// Words of the language of `assets/methods`, and names of the code around the lines.
+const TAKEN: [&str; 22] = [
     "FRAME_S",
-    "memory",
     "before",
-    "unspent",
-    "shown",
-    "position",
-    "velocity",
-    "user",
-    "fail",
-    "stay",
+    "const",
     "count",
-    "takes",
-    "use",
-    "nan",
-    "in",
-    "is",
-    "as",
+    "else",
+    "fail",
     "fn",
-    "type",
-    "struct",
-    "class",
-    "public",
-    "new",
-    "ref",
-    "out",
-    "signal",
-    "extends",
-    "int",
-    "long",
-    "short",
-    "char",
-    "bool",
-    "string",
-    "object",
-    "base",
-    "match",
-    "loop",
-    "mod",
-    "move",
-    "where",
-    "enum",
-    "self",
-    "this",
-    "params",
+    "if",
+    "is_nan",
+    "let",
+    "memory",
+    "nan",
+    "refused",
+    "return",
+    "shown",
+    "stay",
+    "takes",
+    "unspent",
+    "use",
+    "var",
+    "while",
     StepCode::STEP,
 ];
 
@@ -338,7 +315,7 @@ fn name_of(op: Op) -> Option<&'static str> {
     FUNCTIONS.iter().find(|function| is_it(&function.meaning)).map(|function| function.name)
 }
 
-/// Returns a name of the text. The name is changed if a language already uses it.
+/// Returns a name of the text. The name is changed if it is a word there.
 fn unreserved_name(name: &str) -> String {
     if TAKEN.contains(&name) { format!("{name}_own") } else { name.to_owned() }
 }
@@ -359,18 +336,18 @@ mod tests {
             "x += v * step_s - (1.0 - (x - 3.0)) / (2.0 * 3.0)",
         ];
         assert_eq!(code(text), lines);
-        let text = "old = x; in = x - prev; if in > 1 or not in == 0 { in = 1; y = 2 } else { y = 3 }; x += in * y^2; prev = old";
+        let text = "old = x; use = x - prev; if use > 1 or not use == 0 { use = 1; y = 2 } else { y = 3 }; x += use * y^2; prev = old";
         let lines = [
             "var y = 0.0",
             "let old = x",
-            "var in_own = x - memory.prev",
-            "if 1.0 < in_own or not (in_own == 0.0) {",
-            "in_own = 1.0",
+            "var use_own = x - memory.prev",
+            "if 1.0 < use_own or not (use_own == 0.0) {",
+            "use_own = 1.0",
             "y = 2.0",
             "} else {",
             "y = 3.0",
             "}",
-            "x += in_own * (y * y)",
+            "x += use_own * (y * y)",
             "memory.prev = old",
         ];
         assert_eq!(code(text), lines);

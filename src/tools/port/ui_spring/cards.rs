@@ -32,7 +32,6 @@ const DAMPING: Key = ratio("damping", 10.0);
 /// A spring with a mass, given by its equation of motion.
 const EQUATION: UiSpring = UiSpring {
     id: "",
-    former_id: None,
     name: "",
     keys: &[MASS, STIFFNESS, DAMPING],
     source: "",
@@ -232,7 +231,6 @@ pub static UI_SPRINGS: &[UiSpring] = &[
     },
     UiSpring {
         id: "slint",
-        former_id: Some("slint-duration"),
         name: "Slint",
         keys: &[
             milliseconds("duration", 0.5),

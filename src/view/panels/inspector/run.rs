@@ -129,7 +129,7 @@ pub(super) fn show_time(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command
     line(ui, "tick rate", about, |ui, [room, number]| {
         ui.add_space(room - number - RESTORE - ui.spacing().item_spacing.x);
         let size = vec2(number, LINE);
-        rate_scale::number(ui, tick_hz, size, commands);
+        rate_scale::number(ui, studio, size, commands);
         let about = format!("back to {:.3} Hz", opened.tick_hz);
         restore_button(ui, tick_hz != opened.tick_hz, &about, "tick rate", || {
             commands.push(Command::Stage(StageCommand::TickHz(opened.tick_hz)));
