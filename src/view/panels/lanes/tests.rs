@@ -117,7 +117,7 @@ fn a_verdict_predicts_a_blow_up_and_a_halt_reports_it() {
     let euler = euler.unwrap();
     assert_eq!(verdict_texts(&studio)[euler], "blows up · at 4.14 s");
     let details = sorted(&studio, None)[euler].details();
-    assert!(details[0].starts_with("x reached "), "{details:?}");
+    assert!(details[0].contains(" reached "), "{details:?}");
     while !studio
         .race()
         .entrants()
