@@ -169,7 +169,7 @@ const RUST: Dialect = Dialect {
         ("cosh", "TYPE::cosh"),
         ("tanh", "TYPE::tanh"),
     ],
-    reserved: "_ as async await become box break const continue crate do dyn else enum extern false final fn for gen if \
+    reserved: "_ abstract as async await become box break const continue crate do dyn else enum extern false final fn for gen if \
                impl in let loop macro match mod move mut override priv pub ref return self Self static struct super trait \
                true try type typeof unsafe unsized use virtual where while yield None Some Ok Err",
 };

@@ -27,17 +27,14 @@ pub(super) fn spellings<'a>(
     program: &Program<'a>,
     language: Language,
 ) -> BTreeMap<&'a str, String> {
-    let mut spellings = BTreeMap::new();
-    let mut taken = Vec::new();
+    let mut spellings = BTreeMap::<&str, String>::new();
     for name in program.names() {
-        let mut free = name.to_owned();
-        while is_reserved(language, &spelt(language, &free))
-            || taken.contains(&spelt(language, &free))
-        {
+        let (mut free, mut spelling) = (name.to_owned(), spelt(language, name));
+        while is_reserved(language, &spelling) || spellings.values().any(|it| *it == spelling) {
             free += "_own";
+            spelling = spelt(language, &free);
         }
-        taken.push(spelt(language, &free));
-        spellings.insert(name, spelt(language, &free));
+        spellings.insert(name, spelling);
     }
     spellings
 }
@@ -124,7 +121,7 @@ impl Names<'_> {
                 "." if self.language == Language::C && written.ends_with("memory") => {
                     written.push_str("->");
                 }
-                _ if first.is_ascii_alphabetic() => {
+                _ if first.is_ascii_alphabetic() || first == '_' => {
                     let is_call = after.starts_with('(');
                     calls_with_user = is_call && self.takes_user(token);
                     written.push_str(&self.word(token, is_call, converts));
