@@ -241,7 +241,7 @@ pub struct Coordinate {
     pub unit: &'static str,
 }
 
-/// The coordinates of a body, in state order. A large grid computes the names of its coordinates on demand.
+/// The coordinates of a body, in state order. A large net computes the names of its coordinates on demand.
 #[derive(Clone)]
 pub struct Coordinates {
     count: usize,
