@@ -3,7 +3,7 @@
 # 144 Hz, 1.4 times on 75 Hz, and up to twice on 60 Hz.
 #
 # Phaser.Core.TimeStep.stepLimitFPS hands out all time since the last frame that it let through, and keeps `delta % limit` of it for
-# the next one, so that this remainder is handed out twice. Phaser 3.90 hands out real time, in 40 frames a second on 60 Hz.
+# the next one, so that this remainder is handed out twice.
 #
 # Needs node and npm. Prints the time handed out over 60 s, relative to real time, and fails if that changes.
 set -eu

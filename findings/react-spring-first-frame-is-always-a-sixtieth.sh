@@ -1,8 +1,7 @@
 #!/bin/sh
 # @react-spring/core 10.1.2: the first frame of an animation is always 1/60 s, on displays of 30 and of 120 Hz too.
 #
-# So the same spring is at another place at the same moment: at 120 Hz it is one frame ahead from the start, at 30 Hz one behind.
-# A curve for CSS that was fitted to its equation is off by a tenth of the way.
+# So one spring is at another place at the same moment on each of these displays.
 #
 # Needs node and npm. Prints the first value of each, which is that of 17 steps of 1 ms, and fails if they differ.
 set -eu
