@@ -166,7 +166,9 @@ impl Elementwise for Vec<f64> {
     }
     #[inline]
     fn scale(&mut self, h: f64) {
-        self.iter_mut().for_each(|component| *component *= h);
+        for component in self {
+            *component *= h;
+        }
     }
     /// Computes the kick and the drift in one pass over the vectors.
     #[inline]
@@ -181,8 +183,10 @@ impl Elementwise for Vec<f64> {
     /// Adds all terms in one pass over the vectors.
     #[inline]
     fn add_terms<const N: usize>(&mut self, terms: [(f64, &Self); N]) {
-        terms.iter().for_each(|(_, x)| assert_length(x.len(), self.len()));
-        let terms = terms.map(|(h, x)| (h, &x[..self.len()]));
+        let terms = terms.map(|(h, x)| {
+            assert_length(x.len(), self.len());
+            (h, &x[..self.len()])
+        });
         for (i, component) in self.iter_mut().enumerate() {
             for (h, x) in terms {
                 *component += h * x[i];

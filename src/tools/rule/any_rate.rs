@@ -237,9 +237,10 @@ impl Rule {
         source += &self.head(self.text.takes_target(), 0..self.text.carried().len());
         functions.iter().for_each(|function| source += &format!("{function}\n"));
         let is_part = |c: char| c.is_ascii_alphanumeric() || c == '_';
-        let words = |line: &String| line.split(|c| !is_part(c)).position(|it| it == StepCode::STEP);
-        let step = if lines.iter().any(|line| words(line) == Some(0)) { "var" } else { "let" };
-        let reads = lines.iter().any(|line| words(line).is_some());
+        let place =
+            |line: &String| line.split(|c| !is_part(c)).position(|word| word == StepCode::STEP);
+        let step = if lines.iter().any(|line| place(line) == Some(0)) { "var" } else { "let" };
+        let reads = lines.iter().any(|line| place(line).is_some());
         let step = reads.then(|| format!("{step} {} = FRAME_S", StepCode::STEP));
         let lines: Vec<String> =
             step.into_iter().chain(lines).map(|line| format!("    {line}")).collect();

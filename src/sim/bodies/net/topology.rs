@@ -31,7 +31,9 @@ impl Topology {
     pub(super) fn new(plan: Arc<NetPlan>) -> Self {
         let Lists { nodes: places, fixed, springs } = plan.lists();
         let mut index_of = vec![0; places.len()];
-        fixed.iter().for_each(|&node| index_of[node] = FIXED);
+        for node in fixed {
+            index_of[node] = FIXED;
+        }
         let mut free: Vec<u32> =
             (0..places.len() as u32).filter(|&it| index_of[it as usize] != FIXED).collect();
         let is_kicked = |&node: &u32| plan.kicked == Some(node as usize);

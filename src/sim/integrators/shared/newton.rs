@@ -11,8 +11,7 @@
 use super::linearisation::Linearisation;
 use super::stages::{Stages, largest_of};
 use crate::sim::integrators::failure::{StepFailure, Stepped};
-use crate::sim::state::assert_length;
-use crate::sim::state::{State, Vector, largest};
+use crate::sim::state::{State, Vector, assert_length, largest};
 use crate::sim::system::{Coupling, System};
 use continuation::SolutionCurve;
 

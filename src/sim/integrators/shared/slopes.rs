@@ -7,8 +7,7 @@
 //! corner of the force is seldom within its reach.
 
 use crate::sim::numerics::quotient;
-use crate::sim::state::assert_length;
-use crate::sim::state::{State, Vector, largest};
+use crate::sim::state::{State, Vector, assert_length, largest};
 use crate::sim::system::{Query, System};
 
 /// The reach of a difference, as a fraction of the motion of a step. With a larger fraction, curvature would distort
