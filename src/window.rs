@@ -55,7 +55,7 @@ use growing_recording::GrowingRecording;
 use opening::RequestedFile;
 use tick_timer::TickTimer;
 use watch::FileWatch;
-use work_thread::WorkThread;
+use work_thread::{WorkThread, caught};
 
 /// Longest time between two simulation steps without a frame. It is well below the clock's longest frame. A window
 /// that is hidden, or gets no requests for frames from the window system, thus drops no ticks.
@@ -222,6 +222,11 @@ impl App {
 
     /// Applies the commands and steps the ticks that are due.
     fn simulate(&mut self, event_loop: &ActiveEventLoop, now: Instant) {
+        if let Some(Canvas { window, .. }) = &self.canvas {
+            // The system's own keys and buttons change it too.
+            let is_full = window.fullscreen().is_some();
+            self.frames.studio.viewer.preferences.is_full_screen = is_full;
+        }
         while let Some(to_do) = self.frames.begin() {
             match to_do {
                 ToDo::Own(_) => self.advise_on_spring(),
@@ -286,14 +291,17 @@ impl App {
         let (spring, tick_hz) = described_spring(deck, viewer);
         let proxy = self.proxy.clone();
         thread::spawn(move || {
-            let scene = spring.advised_scene(tick_hz).into();
-            _ = proxy.send_event(Event::SpringAdvised(scene));
+            _ = proxy.send_event(match caught(|| spring.advised_scene(tick_hz)) {
+                Ok(scene) => Event::SpringAdvised(scene.into()),
+                Err(sentence) => Event::WorkFailed(sentence),
+            });
         });
     }
 
-    fn toggle_full_screen(&self) {
+    fn toggle_full_screen(&mut self) {
         if let Some(Canvas { window, .. }) = &self.canvas {
             let full = window.fullscreen().is_none().then_some(Fullscreen::Borderless(None));
+            self.frames.studio.viewer.preferences.is_full_screen = full.is_some();
             window.set_fullscreen(full);
         }
     }

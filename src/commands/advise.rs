@@ -36,20 +36,21 @@ each criterion, advise finds the fewest substeps per tick, 1 to 64:
                a swing, the motion stays within 5 % of its range
   accurate     over the scene no coordinate or velocity is off by more than 1 % of its amplitude
 
-The recommended method has the lowest cost; if equal, the largest reserve, then the fewest substeps.
+The answer is one method: one that looks right, or else is bounded, or else accurate. It has the lowest
+cost; if equal, the largest reserve, then the fewest substeps. Explicit Euler comes after every other
+method of its cost.
 The cost is evaluations of the acceleration per simulated second, times 2 to 3 for a linearised method,
-4 for one that iterates. The reserve is the factor by which the bodies may be stiffer, 10 at most, or the
-square of the factor by which the ticks may be slower, if that is less: four times the stiffness needs
-twice the rate. A reserve below 1.5 yields to a larger one at up to twice the cost; the answer then names
+4 for one that iterates. The reserve is the factor by which the bodies may be stiffer, or the square of
+the factor by which the ticks may be slower, if that is less or the factor is 10, where its search ends:
+four times the stiffness needs twice the rate. A reserve below 1.5 yields to a larger one at up to twice the cost; the answer then names
 the cheaper method, in JSON as instead_of.
 
 With --all, HOLDS DOWN TO is the slowest tick rate at which the criterion still holds with the same
 substeps, and HOLDS UP TO the factor by which the named parameter may grow, 10 at most; NS/S is
 measured now, and decides nothing. In JSON, a criterion that is not met has only met, which is false;
-an unknown one is null.
+an unknown one is null, and take names the criterion of the answer.
 
-For a custom spring (--k or --frequency), or with --as, the answer ends with a function: the method
-recommended for looks-right, or else for bounded.
+For a custom spring (--k or --frequency), or with --as, the answer ends with the method as a function.
 
 Examples:
   regatta advise --scene harbour

@@ -2,15 +2,21 @@
 
 use std::fmt::Display;
 use std::io;
+use std::ops::Range;
 use std::path::Path;
 
 use annotate_snippets::{AnnotationKind, Group, Level, Renderer, Snippet};
 
 use super::argument::brief;
-use super::visible::visible;
+use super::visible::{shortened, visible};
 use crate::scene::{SceneErrors, ShownError};
 #[cfg(feature = "view")]
 use crate::view::{FrameSizeError, GpuError, ReadbackError};
+
+/// Maximum number of bytes of the quoted lines of a fault. Longer ones give way to an excerpt around the fault, with
+/// this many bytes before and after it.
+const MAX_QUOTED_BYTES: usize = 8000;
+const EXCERPT_BYTES: usize = 60;
 
 /// Reason for an error. The exit code follows from it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -186,7 +192,8 @@ impl Error {
     /// visible signs, except those of the renderer's colours.
     pub(super) fn mistakes(&self, renderer: &Renderer) -> Vec<ShownError> {
         let Some(errors) = &self.scene else {
-            let title = Level::ERROR.primary_title(visible(&self.message));
+            let message = shortened(&self.message);
+            let title = Level::ERROR.primary_title(visible(&message));
             return vec![renderer.render(&[Group::with_title(title)]).into()];
         };
         let text = visible(&errors.text);
@@ -194,17 +201,35 @@ impl Error {
         let spans = errors.errors.iter().map(|error| error.span.clone());
         let mut spans = spans.map(|span| place(span.start)..place(span.end));
         let mistake = |message: String| {
-            let message = visible(&message).into_owned();
+            let message = visible(&shortened(&message)).into_owned();
             let span = spans.next().filter(|_| !errors.text.is_empty());
             let quoted = span.map(|span| {
-                let annotation = AnnotationKind::Primary.span(span);
-                let snippet = Snippet::source(&*text).annotation(annotation);
-                renderer.render(&[Group::with_level(Level::ERROR).element(snippet)])
+                let render = |text: &str, line, span| {
+                    let annotation = AnnotationKind::Primary.span(span);
+                    let snippet = Snippet::source(text).line_start(line).annotation(annotation);
+                    renderer.render(&[Group::with_level(Level::ERROR).element(snippet)])
+                };
+                let whole = render(&text, 1, span.clone());
+                if whole.len() <= MAX_QUOTED_BYTES {
+                    return whole;
+                }
+                let (line, around) = around(&text, span.start);
+                let end = span.end.clamp(span.start.min(around.end), around.end) - around.start;
+                render(&text[around.clone()], line, span.start - around.start..end)
             });
             ShownError { message, quoted: quoted.unwrap_or_default() }
         };
         errors.messages().map(mistake).collect()
     }
+}
+
+/// Returns the number of the line at a byte, and the part of that line around the byte.
+fn around(text: &str, at: usize) -> (usize, Range<usize>) {
+    let line = text[..at].rfind('\n').map_or(0, |before| before + 1);
+    let end = text[at..].find('\n').map_or(text.len(), |length| at + length);
+    let from = text.ceil_char_boundary(line.max(at.saturating_sub(EXCERPT_BYTES)));
+    let to = text.floor_char_boundary(end.min(at + EXCERPT_BYTES));
+    (1 + text[..at].matches('\n').count(), from.min(at)..to.max(at))
 }
 
 impl From<SceneErrors> for Error {
@@ -244,5 +269,23 @@ impl From<FrameSizeError> for Error {
 impl From<ReadbackError> for Error {
     fn from(error: ReadbackError) -> Self {
         Self::failed(error)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::Scene;
+
+    #[test]
+    fn long_texts_of_a_file_are_cut_around_their_fault() {
+        let report = |error: Error| error.report(&Renderer::plain());
+        let long = "é".repeat(20_000);
+        let text = format!("title = 'x'\n# {long}\nseconds = \"{long}\" # {long}\n");
+        let found = report(Scene::parse("x.toml", &text).unwrap_err().into());
+        assert!(found.len() < 8000 && found.contains("x.toml:3:"), "{} {found}", found.len());
+        assert!(found.contains("3 | seconds = \"é") && found.contains('^'), "{found}");
+        let found = report(Error::mistake(format!("begin {long} remedy")));
+        assert!(found.len() < 8000 && found.contains("begin é") && found.ends_with("é remedy"));
     }
 }

@@ -1,6 +1,6 @@
 //! `regatta link`: prints a run as a link.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::Args;
 
@@ -9,9 +9,13 @@ use super::help::flowing;
 use super::output::print;
 use super::scene_file;
 use super::terminal::print_status;
-use super::verify::recording::{checks_of, refuse_late_checks};
-use crate::run::link;
+use super::verify::recording::{end_of, refuse_late_checks};
 use crate::run::link::MAX_LETTERS;
+use crate::run::{Race, Session, link};
+use crate::scene::{Check, Scene};
+
+/// Most coordinates times ticks that are run for the checks of a link, which takes seconds.
+const MAX_WORK: u64 = 2_000_000;
 
 const ABOUT: &str = "\
 The link holds the scene, its lanes, its script and the hashes at its end, so that `regatta verify LINK`
@@ -34,6 +38,22 @@ pub(super) struct LinkArgs {
     run: PathBuf,
 }
 
+/// Returns checks to the end of a scene, or of the part that takes some seconds.
+fn checks_within(path: &Path, scene: &Scene) -> Result<Vec<Check>, Error> {
+    let last = end_of(path, scene)?;
+    let race = Race::of_scene(scene);
+    let lanes = race.entrants().iter().flat_map(|entrant| entrant.lane.bodies());
+    let numbers: usize = lanes.map(|body| body.stepper.q().len()).sum();
+    let most = (MAX_WORK / numbers.max(1) as u64).max(1);
+    if last > most {
+        print_status(&format!(
+            "note: the run has {last} ticks; so that the link is made in seconds, its checks end at tick {most}; \
+             a recording with [[check]]s is not cut"
+        ));
+    }
+    Ok(Session::racing(scene.clone().into()).recording(last.min(most)).checks)
+}
+
 pub(super) fn run(args: &LinkArgs) -> Result<(), Error> {
     if let Some(name) = args.run.to_str().filter(|_| scene_file::is_built_in(&args.run)) {
         return print(link::to_built_in(name) + "\n");
@@ -41,7 +61,7 @@ pub(super) fn run(args: &LinkArgs) -> Result<(), Error> {
     let (mut scene, _) = scene_file::load(&args.run)?;
     refuse_late_checks(&args.run, &scene)?;
     if scene.checks.is_empty() {
-        scene.checks = checks_of(&args.run, &scene)?;
+        scene.checks = checks_within(&args.run, &scene)?;
     }
     let link = link::link_to_run(&scene).map_err(Error::mistake)?;
     if link.len() > MAX_LETTERS {

@@ -33,6 +33,9 @@
 //!   `lanes` has its `hash` and, body by body, `q` and `v`. JSON has no numbers that are not finite, so these are the
 //!   strings `inf`, `-inf` and `NaN`.
 //!
+//! `regatta verify` recomputes all of it, and compares, except `regatta` and `adapter`: no later program can know what
+//! drew then.
+//!
 //! A lane's `hash` is [`Race::lane_hashes`](crate::run::Race::lane_hashes). The other hashes are 64 bits of XXH3
 //! ([`fingerprint`]). All hashes are hexadecimal. There is no seed, because nothing in a run is random.
 

@@ -164,7 +164,8 @@ fn lone_scene(cli: &clap::Command, arguments: &[OsString]) -> Option<usize> {
     };
     let is_scene = |at: &usize| {
         let written = arguments[*at].as_ref();
-        scene_file::is_link(written) || takes_names && scene_file::is_name(written)
+        let is_command = *at == 1 && named.is_some();
+        scene_file::is_link(written) || takes_names && !is_command && scene_file::is_name(written)
     };
     (1..end).filter(is_scene).find(is_lone)
 }

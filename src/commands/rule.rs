@@ -19,7 +19,7 @@ use crate::sim::law::MAX_STEP_BYTES;
 use crate::sim::number::significant;
 use crate::tools::Rule;
 use crate::tools::port::{PortOutcome, UI_SPRINGS, Wish, followers};
-use crate::tools::rule::{VisibleMotion, rule_scene};
+use crate::tools::rule::{Course, Piece, UNITS, VisibleMotion, rule_scene};
 use crate::tools::source_code::Language;
 
 const ABOUT: &str = "\
@@ -56,6 +56,17 @@ pub(super) struct RuleArgs {
     #[arg(allow_negative_numbers = true)]
     fps: f64,
 
+    /// The unit of dt in the lines: s, ms or us
+    ///
+    /// Seconds, if left out. The `delta` of Phaser is in milliseconds, the `delta_time` of GameMaker in microseconds.
+    #[arg(long, value_name = "UNIT", conflicts_with = "scene", hide_possible_values = true)]
+    #[arg(value_parser = UNITS.map(|(unit, _)| unit))]
+    dt: Option<String>,
+
+    /// The fraction of the way, or of the speed, within which it has settled: 0.01 if left out
+    #[arg(long, value_name = "PART", conflicts_with = "scene", value_parser = part)]
+    within: Option<f64>,
+
     /// The language of the code: rust, c, cpp, csharp or gdscript
     #[arg(long = "as", value_name = "LANGUAGE", default_value = Language::Rust.id())]
     #[arg(value_parser = LANGUAGE_OR_CPP, hide_possible_values = true)]
@@ -71,6 +82,11 @@ pub(super) struct RuleArgs {
     /// The format: text or json
     #[arg(long, value_name = "FORMAT", default_value = "text", hide_possible_values = true)]
     format: TableFormat,
+}
+
+fn part(written: &str) -> Result<f64, String> {
+    let part = written.parse().ok().filter(|part: &f64| *part > 0.0 && *part < 1.0);
+    part.ok_or_else(|| "a part is between 0 and 1; write one, such as `0.02`".into())
 }
 
 /// Returns the name that the rule has in messages, and the text of the rule.
@@ -110,6 +126,12 @@ pub(super) fn run(args: &RuleArgs) -> Result<(), Error> {
     }
     let rule = Rule::read(&written, args.fps)
         .map_err(|fault| Error::from(SceneErrors::of_step(&name, &written, fault)))?;
+    let units = UNITS.iter().find(|(unit, _)| args.dt.as_deref() == Some(unit));
+    let rule = rule.in_units(units.map_or(1.0, |(_, units)| *units));
+    let rule = match args.within {
+        Some(within) => rule.within(within),
+        None => rule,
+    };
     args.format.print(&match args.format {
         TableFormat::Json => format!("{:#}\n", object(&rule, &written)),
         TableFormat::Text => report_text(&rule, &written, args.language),
@@ -124,6 +146,18 @@ fn object(rule: &Rule, written: &str) -> Value {
             "damping_ratio": seen.spring.and_then(|spring| spring.damping_ratio()),
             "settles_s": seen.settles_s,
             "grows": seen.grows,
+            "top_speed": seen.top_speed,
+            "accelerates": seen.accelerates,
+            "jump_height": seen.jump.map(|[height, _]| height),
+            "jump_s": seen.jump.map(|[_, seconds]| seconds),
+        })
+    };
+    let pieces = rule.pieces();
+    let piece = |piece: &Piece| {
+        json!({
+            "condition": piece.condition,
+            "course": outcome(piece, rule),
+            "seen": piece.rule.motions().into_iter().map(seen).collect::<Vec<_>>(),
         })
     };
     let spring =
@@ -137,6 +171,10 @@ fn object(rule: &Rule, written: &str) -> Value {
         "fps": rule.fps(),
         "linear": rule.is_linear(),
         "seen": rule.motions().into_iter().map(seen).collect::<Vec<_>>(),
+        "pieces": pieces.iter().map(piece).collect::<Vec<_>>(),
+        "within": rule.settles_within(),
+        "jump_speed": rule.jump_speed(),
+        "hint": hint(rule, written),
         "rings_below_fps": rule.rings_below_fps(),
         "explodes_below_fps": rule.explodes_below_fps(),
         "spring": rule.spring().map(spring),
@@ -167,6 +205,78 @@ const COLUMNS: &[Column<VisibleMotion>] = &[
     Column::shown("settles", "1 % AFTER s", |seen| digits(seen.settles_s, 4)),
     Column::shown("grows", "GROWS", |seen| seen.grows.into()),
 ];
+/// Columns of a driven rule.
+const DRIVEN: &[Column<VisibleMotion>] = &[
+    Column::shown("fps", "FPS", |seen| seen.fps.to_string().into()),
+    Column::shown("top", "TOP SPEED", |seen| digits(seen.top_speed, 4)),
+    Column::shown("accelerates", "ACCELERATES /s", |seen| digits(seen.accelerates, 4)),
+    Column::shown("height", "JUMPS", |seen| digits(seen.jump.map(|[height, _]| height), 4)),
+    Column::shown("lasts", "LASTS s", |seen| digits(seen.jump.map(|[_, seconds]| seconds), 4)),
+];
+
+/// Returns the tables of a rule.
+fn tables(rule: &Rule) -> String {
+    let motions = rule.motions();
+    let is_driven = |seen: &VisibleMotion| seen.top_speed.or(seen.accelerates).is_some();
+    let mut said = text(COLUMNS, &motions, "  ");
+    if rule.settles_within() != 0.01 {
+        let percent = (1e8 * rule.settles_within()).round() / 1e6;
+        said = said.replacen("1 % AFTER s", &format!("{percent} % AFTER s"), 1);
+    }
+    if motions.iter().any(is_driven) {
+        said += "\n";
+        said += &text(DRIVEN, &motions, "  ");
+    }
+    if let Some(speed) = rule.jump_speed() {
+        said += &format!("a jump starts with v = {}\n", significant(speed, 4));
+    }
+    said
+}
+
+/// Describes the motion of a piece at the author's rate.
+fn outcome(piece: &Piece, whole: &Rule) -> String {
+    let seen = piece.rule.motion_at(piece.rule.fps());
+    let number = |value| significant(value, 4);
+    match (piece.course(), seen) {
+        (Some(Course::Stops), _) => {
+            let reached = piece.reached_s(whole).map(number);
+            let reached = reached.map(|s| format!("; from 1 it is there after {s} s"));
+            format!("it stops at once{}", reached.unwrap_or_default())
+        }
+        (Some(Course::Stays), _) => "it stays where it is".into(),
+        (Some(Course::Moves(speed)), _) => {
+            let other = piece.rule.motion_at(2.0 * piece.rule.fps());
+            let is_alike =
+                other.top_speed.is_some_and(|top| (top.abs() / speed - 1.0).abs() < 1e-9);
+            let rate = if is_alike { ", at every frame rate" } else { "" };
+            format!("it moves at a constant {} a second{rate}", number(speed))
+        }
+        (None, VisibleMotion { hz: Some(_), spring: Some(spring), .. }) => {
+            let ratio = spring.damping_ratio().map(number);
+            let ratio = ratio.map_or(String::new(), |ratio| format!(", damping ratio {ratio}"));
+            format!("a spring of {} Hz{ratio}", number(spring.undamped_hz()))
+        }
+        (None, VisibleMotion { accelerates: Some(gain), top_speed: None, .. }) => {
+            format!("the speed changes by {} a second", number(gain.abs()))
+        }
+        (None, VisibleMotion { halves_s: Some(s), .. }) => format!("halves in {} s", number(s)),
+        (None, seen) if seen.grows => "it grows".into(),
+        (None, _) => "it moves on".into(),
+    }
+}
+
+/// Asks whether the length of a frame has another unit, if the rule is too slow in seconds.
+fn hint(rule: &Rule, written: &str) -> Option<String> {
+    let (unit, halves_s) = rule.other_unit()?;
+    let has = |name: &&&str| written.contains(**name);
+    let name =
+        ["delta_time", "deltaTime", "delta", "elapsed", "dt"].iter().find(has).unwrap_or(&"h");
+    let unit_name = if unit == "ms" { "milliseconds" } else { "microseconds" };
+    let halves = significant(halves_s, 4);
+    Some(format!(
+        "nothing halves within 30 s: is {name} in {unit_name}? With --dt {unit} it halves in {halves} s"
+    ))
+}
 
 fn report_text(rule: &Rule, written: &str, language: Language) -> String {
     let fps = rule.fps();
@@ -175,8 +285,24 @@ fn report_text(rule: &Rule, written: &str, language: Language) -> String {
         false => "not linear: below are small motions about a rest at 0, where it has one",
     };
     let mut said = format!("{kind}; of {}\n\n", rule.state().collect::<Vec<_>>().join(" and "));
-    said += &text(COLUMNS, &rule.motions(), "  ");
+    let pieces = rule.pieces();
+    if pieces.is_empty() {
+        said += &tables(rule);
+    } else {
+        let state = rule.state().collect::<Vec<_>>().join(" and ");
+        said = format!("not linear, but in pieces; of {state}\n");
+        for piece in &pieces {
+            said += &format!("\n{}: {}\n", piece.condition, outcome(piece, rule));
+            if !matches!(piece.course(), Some(Course::Stops | Course::Stays)) {
+                said += &tables(&piece.rule);
+            }
+        }
+    }
+    if let Some([kept, other]) = rule.left_out() {
+        said += &format!("\nof the component {kept} alone; the lines of {other} are left out\n");
+    }
     said += "\n";
+    said += &hint(rule, written).map(|hint| hint + "\n").unwrap_or_default();
     if !rule.takes_step() {
         said +=
             "without dt: every frame moves it alike, so it is twice as fast at twice the rate\n";

@@ -1,12 +1,14 @@
 //! Loads the scene that `--scene` names, which is a built-in scene, or else a file or a link.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use super::argument::brief;
 use super::error::Error;
+use super::manifest::FILE_NAME;
 use super::output::Input;
 use super::own_method::is_step;
 use super::terminal::print_status;
+use super::verify;
 
 pub(super) use crate::regular_file::is_link;
 use crate::regular_file::{self, Unreadable};
@@ -30,12 +32,29 @@ pub(super) fn load(path: &Path) -> Result<(Scene, String), Error> {
         let text = scene.to_toml();
         return Ok((scene, text));
     }
+    if let Some(dir) = capture_at(path) {
+        let scene = verify::scene_of_capture(&dir)?;
+        let text = scene.to_toml();
+        return Ok((scene, text));
+    }
     let bytes = read(path)?;
     let scene =
         Scene::from_bytes(&name_in_link(path).unwrap_or_else(|| name_in_messages(path)), &bytes)?;
     let outdated = scene.outdated.iter().flat_map(|outdated| outdated.messages());
     outdated.for_each(|message| print_status(&format!("warning: {message}")));
     Ok((scene, String::from_utf8_lossy(&bytes).into_owned()))
+}
+
+/// Returns the folder of the capture at `path`, which is that folder or the manifest in it. Returns `None` if there is no
+/// manifest.
+fn capture_at(path: &Path) -> Option<PathBuf> {
+    match path.is_dir() {
+        true => path.join(FILE_NAME).is_file().then(|| path.to_owned()),
+        false if path.is_file() && path.file_name()? == FILE_NAME => {
+            Some(path.parent().filter(|dir| *dir != Path::new("")).unwrap_or(Path::new(".")).into())
+        }
+        false => None,
+    }
 }
 
 /// Returns the scene of the rule whose lines are in a file.
@@ -80,14 +99,20 @@ pub(super) fn is_built_in(path: &Path) -> bool {
     built_in(path).is_some()
 }
 
-/// Whether `path` looks like a scene, which it does if it ends in .toml or .step, or is the name of a built-in scene.
+/// Whether `path` looks like a scene, which it does if it ends in .toml or .step, is the name of a built-in scene, or is
+/// a folder or the manifest of a capture.
 pub(super) fn is_name(path: &Path) -> bool {
-    is_built_in(path) || is_step(path) || path.extension().is_some_and(|ending| ending == "toml")
+    is_built_in(path)
+        || is_step(path)
+        || path.extension().is_some_and(|ending| ending == "toml")
+        || path.is_dir()
+        || capture_at(path).is_some()
 }
 
-/// Whether `path` is the path of a file, which means that it is neither a built-in scene nor a link.
+/// Whether `path` is the path of a scene file, which means that it is neither a built-in scene nor a link nor a
+/// capture.
 pub(super) fn is_file(path: &Path) -> bool {
-    !is_built_in(path) && !is_link(path)
+    !is_built_in(path) && !is_link(path) && capture_at(path).is_none()
 }
 
 /// Returns the scene at `path` as an input of a command, if the scene is a file.
@@ -123,7 +148,9 @@ fn read(path: &Path) -> Result<Vec<u8>, Error> {
     regular_file::read(path, MAX_FILE_BYTES).map_err(|error| {
         let shown = brief(path);
         Error::mistake(match error {
-            Unreadable::Directory => format!("{shown} is a directory; give a scene file in it"),
+            Unreadable::Directory => {
+                format!("{shown} is a directory without {FILE_NAME}; give a scene file, or the directory of a capture")
+            }
             Unreadable::TooLarge { .. } => {
                 return SceneErrors::too_large(&shown).into();
             }

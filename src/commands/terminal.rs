@@ -11,11 +11,11 @@ use anstream::{AutoStream, ColorChoice};
 use indicatif::{ProgressBar, ProgressStyle};
 
 use super::error::Error;
-use super::visible::visible;
+use super::visible::{shortened, visible};
 
 /// Writes a line to standard error. If standard error is closed, does nothing.
 pub fn print_status(line: &str) {
-    let _ = writeln!(io::stderr(), "{}", visible(line));
+    let _ = writeln!(io::stderr(), "{}", visible(&shortened(line)));
 }
 
 /// Writes the report of an error to standard error. It is in colour on a terminal, unless `NO_COLOR` is set or `TERM`

@@ -13,10 +13,11 @@ use super::error::Error;
 use super::experiment::Experiment;
 use super::frame_names::is_of_a_capture;
 use super::help::flowing;
-use super::manifest::Manifest;
+use super::manifest::{FILE_NAME, Manifest};
 use super::output::same_file_path;
 use super::settings::CaptureSettings;
 use super::state_log::StateLog;
+use crate::scene::{Check, LaneId, Scene};
 use crate::studio::Studio;
 
 mod clip;
@@ -120,6 +121,33 @@ pub(super) fn manifest_of(dir: &Path) -> Result<(Manifest, Experiment), Error> {
     Ok((rerun.manifest, rerun.experiment))
 }
 
+/// Returns the run of the capture in `dir` as a scene, with the states of its marks as checks.
+pub(super) fn scene_of_capture(dir: &Path) -> Result<Scene, Error> {
+    let (manifest, experiment) = manifest_of(dir)?;
+    let (race, opening) = (manifest.settings.race, experiment.opening_method());
+    let lanes = &experiment.scene.lanes;
+    let first =
+        if race { 0 } else { lanes.iter().position(|it| it.method == opening).unwrap_or(0) };
+    let check = |tick: u64, (index, hash): (usize, &String)| {
+        let hash = u64::from_str_radix(hash, 16).map_err(|_| {
+            let file = brief(&dir.join(FILE_NAME));
+            Error::mistake(format!("{file}: {hash:?} is no hash of a state; capture again"))
+        })?;
+        Ok(Check { tick, lane: LaneId::of_index(first + index), hash })
+    };
+    let marks = manifest.marks.iter().flat_map(|mark| {
+        let lanes = mark.lanes.iter().map(|lane| &lane.hash).enumerate();
+        lanes.map(|lane| check(mark.tick, lane))
+    });
+    let checks = marks.collect::<Result<Vec<Check>, Error>>()?;
+    Ok(Scene {
+        checks,
+        opens_as_race: race,
+        opening_method: experiment.selected.or(experiment.scene.opening_method),
+        ..experiment.scene
+    })
+}
+
 /// Whether `path` counts as a scene file. It does if it is a link, a file, or a missing path that ends in `.toml`.
 fn is_scene_file(path: &Path) -> bool {
     super::scene_file::is_link(path)
@@ -167,6 +195,14 @@ struct Rerun {
     experiment: Experiment,
 }
 
+/// A repeated run: the studio at its end, and the log of its states.
+struct Repeated {
+    studio: Studio,
+    state_log: StateLog,
+    /// The first frame whose moment differs, with its tick, if no frame was drawn.
+    moment: Option<(u64, String)>,
+}
+
 /// The frames of a repeated run.
 struct Frames {
     /// Whether the frames must be the same to the byte.
@@ -183,16 +219,19 @@ impl Rerun {
         (studio, state_log)
     }
 
-    /// Runs the studio to the end without drawing. Returns the studio and the log of its states, or `None` after an
-    /// interrupt.
-    fn run(&self, interrupted: &AtomicBool) -> Option<(Studio, StateLog)> {
+    /// Runs the studio to the end without drawing, or to an interrupt, after which it returns `None`.
+    fn run(&self, interrupted: &AtomicBool) -> Option<Repeated> {
         let (mut studio, mut state_log) = self.begin();
-        for frame in 0..self.manifest.frames.len() as u32 {
+        let mut moment = None;
+        for (frame, entry) in (0..).zip(&self.manifest.frames) {
             if interrupted.load(Ordering::Relaxed) {
                 return None;
             }
             self.capture.schedule.advance(&mut studio, frame, &mut state_log);
+            let (tick, alpha) = (studio.race().tick(), studio.clock().alpha_fraction());
+            let other = || physics::other_moment(entry, tick, alpha);
+            moment = moment.or_else(|| Some((tick, format!("{}: {}", entry.file, other()?))));
         }
-        Some((studio, state_log))
+        Some(Repeated { studio, state_log, moment })
     }
 }

@@ -10,8 +10,8 @@ fn is_hidden(sign: char) -> bool {
     hides_or_breaks(sign) && !matches!(sign, '\n' | '\t')
 }
 
-/// Replaces control characters, separators of lines, and characters that set the direction of writing, by visible signs.
-/// A control character becomes its picture in Unicode, if it has one. CRLF line ends stay.
+/// Replaces control characters, separators of lines, and characters that set the direction of writing, by visible
+/// signs. A control character becomes its picture in Unicode, if it has one. CRLF line ends stay.
 pub fn visible(text: &str) -> Cow<'_, str> {
     if !text.contains(is_hidden) {
         return text.into();
@@ -25,6 +25,22 @@ pub fn visible(text: &str) -> Cow<'_, str> {
         sign => sign,
     });
     shown.collect()
+}
+
+/// Most characters of a message at its start and at its end, where the remedy is.
+const MAX_HEAD_CHARS: usize = 2000;
+const MAX_TAIL_CHARS: usize = 500;
+
+/// Returns a message without the middle part if it is too long to read.
+pub(super) fn shortened(message: &str) -> Cow<'_, str> {
+    let head = message.char_indices().nth(MAX_HEAD_CHARS).map(|(at, _)| at);
+    let tail = message.char_indices().nth_back(MAX_TAIL_CHARS).map(|(at, _)| at);
+    match head.zip(tail) {
+        Some((head, tail)) if head < tail => {
+            format!("{} … {}", &message[..head], &message[tail..]).into()
+        }
+        _ => message.into(),
+    }
 }
 
 /// Returns the text in a form for use within a line, in which line ends become signs too.

@@ -17,8 +17,8 @@ pub(crate) struct Landmark {
 pub(crate) enum SilhouetteShape {
     /// A filled circle with this centre and radius.
     Disc([f32; 2], f32),
-    /// A circle's line with this centre and radius.
-    Ring([f32; 2], f32),
+    /// An ellipse's line with this centre, and these radii across and up.
+    Ring([f32; 2], [f32; 2]),
     /// A filled polygon with these corners, all of which are visible from their mean.
     Outline(&'static [[f32; 2]]),
 }
@@ -27,7 +27,7 @@ impl Landmark {
     /// Returns the largest extent of the silhouette up or down from its middle, relative to the thing's length.
     pub(crate) fn half_height(&self) -> f32 {
         let highest = |part: &SilhouetteShape| match part {
-            Disc([_, y], radius) | Ring([_, y], radius) => y.abs() + radius,
+            Disc([_, y], radius) | Ring([_, y], [_, radius]) => y.abs() + radius,
             Outline(corners) => corners.iter().fold(0.0, |most, [_, y]| y.abs().max(most)),
         };
         self.silhouette.iter().map(highest).fold(0.0, f32::max)
@@ -43,12 +43,13 @@ const fn known(
     Landmark { names, length_m, length, silhouette }
 }
 
-/// All landmarks, from small to large. The court has the size that the rules demand, the jet is a Boeing 747-400, and
-/// the pyramid is measured along its foot. The tower has its height since 2022, the ship is among the longest of its
-/// kind, and the island is measured along its longest street. The sizes of the Sun and of the light year are those of
-/// the IAU. The orbit is twice 30.07 au wide, the Galaxy 100 000 light years and the observable universe 93 billion.
+/// All landmarks, from small to large. The court has the size that the rules demand, and the jet is a Boeing 747-400.
+/// The tower has its height since 2022, the ship is among the longest of its kind, the island is measured along its
+/// longest street, and Chile from north to south. The way to the Moon is its mean distance; the sizes of the Sun, of
+/// the way to it (1 au) and of the light year are those of the IAU. The orbit is twice 30.07 au wide, the Galaxy
+/// 100 000 light years and the observable universe 93 billion.
 #[rustfmt::skip]
-pub(crate) static LANDMARKS: [Landmark; 14] = [
+pub(crate) static LANDMARKS: [Landmark; 16] = [
     known(["a person", "people"], 1.75, "1.75 m", &[
         Disc([0.07, 0.0], 0.065),
         Outline(&[[0.15, 0.11], [0.3, 0.12], [0.55, 0.08], [0.55, -0.08], [0.3, -0.12],
@@ -82,10 +83,6 @@ pub(crate) static LANDMARKS: [Landmark; 14] = [
         Outline(&[[0.16, 0.03], [0.05, 0.03], [0.0, 0.15], [0.05, 0.15]]),
         Outline(&[[0.16, -0.03], [0.05, -0.03], [0.0, -0.15], [0.05, -0.15]]),
     ]),
-    known(["the Great Pyramid", "Great Pyramids"], 230.0, "230 m", &[
-        Outline(&[[0.0, -0.3], [0.5, 0.3], [1.0, -0.3]]),
-        Outline(&[[0.5, 0.3], [1.0, -0.3], [0.62, -0.3]]),
-    ]),
     known(["the Eiffel Tower", "Eiffel Towers"], 330.0, "330 m", &[
         Outline(&[[0.0, 0.004], [0.5, 0.035], [0.8, 0.075], [0.8, -0.075], [0.5, -0.035],
             [0.0, -0.004]]),
@@ -103,12 +100,24 @@ pub(crate) static LANDMARKS: [Landmark; 14] = [
         Outline(&[[0.0, 0.0], [0.05, 0.04], [0.3, 0.08], [0.55, 0.075], [0.75, 0.045],
             [1.0, 0.015], [1.0, -0.015], [0.8, -0.03], [0.6, -0.065], [0.3, -0.075], [0.06, -0.05]]),
     ]),
+    known(["Chile", "Chiles"], 4.27e6, "4270 km", &[
+        Outline(&[[0.0, 0.02], [0.2, 0.012], [0.5, 0.018], [0.8, 0.022], [0.93, 0.035], [1.0, 0.0],
+            [0.93, -0.04], [0.8, -0.025], [0.5, -0.02], [0.2, -0.015]]),
+    ]),
     known(["the Earth", "Earths"], 1.2742e7, "12 742 km", &[Disc([0.5, 0.0], 0.5)]),
+    known(["the way to the Moon", "ways to the Moon"], 3.844e8, "384 000 km", &[
+        Disc([0.02, 0.0], 0.02), Disc([0.9945, 0.0], 0.0055),
+        Outline(&[[0.04, 0.002], [0.989, 0.002], [0.989, -0.002], [0.04, -0.002]]),
+    ]),
     known(["the Sun", "Suns"], 1.3914e9, "1.39 million km", &[
-        Disc([0.5, 0.0], 0.46), Ring([0.5, 0.0], 0.5),
+        Disc([0.5, 0.0], 0.46), Ring([0.5, 0.0], [0.5, 0.5]),
+    ]),
+    known(["the way to the Sun", "ways to the Sun"], 1.495_978_707e11, "150 million km", &[
+        Disc([0.004, 0.0], 0.004), Disc([0.98, 0.0], 0.02),
+        Outline(&[[0.008, 0.002], [0.96, 0.002], [0.96, -0.002], [0.008, -0.002]]),
     ]),
     known(["Neptune's orbit", "orbits of Neptune"], 9e12, "9 billion km", &[
-        Ring([0.5, 0.0], 0.5), Disc([0.5, 0.0], 0.012),
+        Ring([0.5, 0.0], [0.5, 0.11]), Disc([0.5, 0.0], 0.012),
     ]),
     known(["a light year", "light years"], 9.4607e15, "9.46·10¹⁵ m", &[
         Outline(&[[0.0, 0.006], [0.9, 0.006], [0.9, -0.006], [0.0, -0.006]]),
@@ -120,7 +129,7 @@ pub(crate) static LANDMARKS: [Landmark; 14] = [
         Disc([0.5, 0.0], 0.065),
     ]),
     known(["the observable universe", "observable universes"], 8.8e26, "93 billion light years", &[
-        Ring([0.5, 0.0], 0.5), Ring([0.5, 0.0], 0.33), Ring([0.5, 0.0], 0.16),
+        Ring([0.5, 0.0], [0.5, 0.11]), Ring([0.5, 0.0], [0.33, 0.07]), Ring([0.5, 0.0], [0.16, 0.035]),
         Disc([0.5, 0.0], 0.01),
     ]),
 ];
@@ -146,7 +155,7 @@ mod tests {
         assert!(LANDMARKS.is_sorted_by_key(|landmark| landmark.length_m));
         for landmark in &LANDMARKS {
             let is_within = landmark.silhouette.iter().all(|part| match part {
-                Disc([x, _], radius) | Ring([x, _], radius) => {
+                Disc([x, _], radius) | Ring([x, _], [radius, _]) => {
                     x - radius >= 0.0 && x + radius <= 1.0
                 }
                 Outline(at) => at.len() > 2 && at.iter().all(|[x, _]| (0.0..=1.0).contains(x)),

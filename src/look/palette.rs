@@ -68,10 +68,10 @@ impl Theme {
     }
 
     /// Returns the colour and the dash pattern of the game loop with this index in
-    /// [`POLICIES`](crate::loops::POLICIES). Any seven neighbours differ in colour.
+    /// [`POLICIES`](crate::loops::POLICIES). Any seven neighbours differ in colour, and none has a method's colour.
     pub fn loop_style(self, index: usize) -> (Rgba, [f32; 2]) {
-        let colour = LOOPS[index % LOOPS.len()];
-        (self.palette().methods[colour], DASHES[index % FIRST_DASHES])
+        let loops = &self.palette().loops;
+        (loops[index % loops.len()], DASHES[index % FIRST_DASHES])
     }
 }
 
@@ -117,6 +117,7 @@ pub struct Palette {
     /// Colour of fair verdicts.
     pub fair: Rgba,
     methods: [Rgba; 7],
+    loops: [Rgba; 7],
 }
 
 impl Palette {
@@ -171,6 +172,15 @@ static DARK: Palette = Palette {
         rgb(0xE69F00),
         rgb(0xADA4FF),
     ],
+    loops: [
+        rgb(0xBBA56B),
+        rgb(0xFF62C4),
+        rgb(0x9DF04E),
+        rgb(0xDDF5B4),
+        rgb(0xE86BFF),
+        rgb(0x74B33C),
+        rgb(0x8FFFF0),
+    ],
 };
 
 static LIGHT: Palette = Palette {
@@ -202,6 +212,15 @@ static LIGHT: Palette = Palette {
         rgb(0x4A2000),
         rgb(0x4A3FA8),
     ],
+    loops: [
+        rgb(0x695E5F),
+        rgb(0x9412BC),
+        rgb(0x146A0C),
+        rgb(0x3A1E5E),
+        rgb(0x2222EE),
+        rgb(0x334010),
+        rgb(0x1450DC),
+    ],
 };
 
 /// Lengths of dash and gap in points. With six patterns and seven colours, any two of the first 42 methods differ in
@@ -220,9 +239,6 @@ const HUES: [usize; 7] = [0, 1, 2, 0, 2, 0, 1];
 
 /// Number of lanes at the head of a list that have keys. No two of them share both hue and dash.
 const DISTINCT_LANES: usize = 9;
-
-/// Indices of the colours of game loops. No two warm colours are adjacent.
-const LOOPS: [usize; 7] = [2, 5, 4, 6, 0, 1, 3];
 
 /// The methods in the races of the chapter and its scenes, with the indices of their colours and dashes.
 const CLASSICS: [(&str, usize, usize); 6] = [

@@ -34,7 +34,7 @@ pub const MAX_ON_STAGE: usize = 4;
 /// Slow-motion factors. In faster playback, the monitor's own judder shows too.
 pub const SLOWNESS: [u32; 6] = [1, 2, 4, 8, 16, 32];
 /// Initial slow-motion factor.
-const SLOWNESS_AT_FIRST: u32 = 8;
+pub const SLOWNESS_AT_FIRST: u32 = 8;
 /// Refresh rate of a trace that names none.
 const DISPLAY: RefreshRate = RefreshRate::new(60, 1);
 

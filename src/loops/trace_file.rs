@@ -16,6 +16,7 @@ mod durations;
 mod stream;
 
 use std::collections::{HashMap, HashSet};
+use std::io::Read as _;
 
 use csv::{ByteRecord, StringRecord};
 
@@ -26,6 +27,12 @@ use stream::Stream;
 
 use crate::sim::number::significant;
 use crate::table::{Reading, TableError, TableFault, TableReader, Utf8};
+
+/// Maximum number of rows of a log: two hours of frames at 144 Hz.
+const MAX_FRAMES: usize = 1 << 20;
+
+/// Maximum number of programs, processes and windows in a log. A system runs some hundred.
+const MAX_STREAMS: usize = 1000;
 
 /// The reason why a log cannot be read, with its place and a remedy.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -88,6 +95,10 @@ enum Fault {
     NoTimePasses { frames: usize },
     #[error("from here on the frames last more than a year in all; split the log")]
     TooLong,
+    #[error("the log has more than {MAX_FRAMES} frames; split it")]
+    ManyFrames,
+    #[error("the log has more than {MAX_STREAMS} programs and windows; take some out")]
+    ManyStreams,
 }
 
 /// Reads the streams of a log from a text, like [`from_bytes`].
@@ -116,7 +127,7 @@ pub fn from_bytes(name: &str, bytes: &[u8]) -> Result<Vec<FrameTrace>, TraceFile
 #[cfg(feature = "serde")]
 fn of_json(name: &str, bytes: &[u8]) -> Result<Vec<FrameTrace>, TraceFileError> {
     let at = |fault| TraceFileError { name: name.into(), line: 1, fault };
-    let table = capture_json::table(bytes).map_err(|what| at(Fault::Json(what)))?;
+    let table = capture_json::table(bytes).map_err(at)?;
     let traces = of_table(name, table.as_bytes()).map_err(|error| match error.line {
         1 => at(error.fault),
         line => at(Fault::Frame { number: line - 1, fault: Box::new(error.fault) }),
@@ -245,7 +256,7 @@ fn read_in(
 
     let (mut streams, mut numbers) = (Vec::<Stream>::new(), HashMap::<String, usize>::new());
     let mut key = String::new();
-    let mut last_ns = None;
+    let (mut rows, mut last_ns) = (0, None);
     loop {
         let next = table.next(&mut record);
         let row = text_of(&record);
@@ -253,6 +264,10 @@ fn read_in(
             break;
         }
         let Some(line) = next.map_err(broken)? else { break };
+        rows += 1;
+        if rows > MAX_FRAMES {
+            return Err(at(line, Fault::ManyFrames));
+        }
         let mut cells = columns.read(&row, in_unit).map_err(|fault| at(line, fault))?;
         if let (true, Ok(now_ns)) = (columns.is_since_start(), &mut cells.began_ns) {
             let before_ns = last_ns.replace(*now_ns).unwrap_or(*now_ns);
@@ -267,6 +282,7 @@ fn read_in(
         key.extend([cells.application, "\n", cells.process, "\n", cells.swap_chain]);
         let number = match numbers.get(&key) {
             Some(&number) => number,
+            None if streams.len() == MAX_STREAMS => return Err(at(line, Fault::ManyStreams)),
             None => {
                 numbers.insert(key.clone(), streams.len());
                 streams.push(Stream::new(&cells, line));
@@ -318,12 +334,16 @@ fn text_of(row: &ByteRecord) -> StringRecord {
 
 /// Whether a log starts with the remarks of CapFrameX on the game and the machine.
 fn is_of_capframex(bytes: &[u8]) -> bool {
-    bytes.starts_with(b"//") && head(bytes).contains("//GameName")
+    let head = head(bytes);
+    head.starts_with("//") && head.contains("//GameName")
 }
 
-/// Returns the first bytes of a log as text.
+/// Returns the first bytes of a log as text, whatever its encoding.
 fn head(bytes: &[u8]) -> String {
-    String::from_utf8_lossy(&bytes[..bytes.len().min(400)]).into_owned()
+    let mut head = Vec::new();
+    // A slice gives all its bytes without an error.
+    let _ = Utf8::new(bytes).take(400).read_to_end(&mut head);
+    String::from_utf8_lossy(&head).into_owned()
 }
 
 /// Whether a log is one of MSI Afterburner, whose rows begin with their kind, which is 00 for the head.

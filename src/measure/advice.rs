@@ -456,6 +456,16 @@ pub fn recommended(advised: &[MethodAdvice], criterion: usize) -> Option<usize> 
     ranking(advised, criterion).recommended_index()
 }
 
+/// Indices of the criteria by which the one recommendation is chosen, with the preferred first: that the motion looks
+/// right, that it is bounded, and that it is accurate.
+pub const TAKEN_FOR: [usize; CRITERIA.len()] = [1, 0, 2];
+
+/// Returns the index of the criterion whose [`recommended`] method to take, which is the first of [`TAKEN_FOR`] that a
+/// method is known to meet.
+pub fn criterion_to_take(advised: &[MethodAdvice]) -> Option<usize> {
+    TAKEN_FOR.into_iter().find(|&criterion| recommended(advised, criterion).is_some())
+}
+
 /// Returns the indices in `advised` of the methods that meet a criterion. The [`recommended`] one comes first, then the
 /// others by increasing cost. The order of `advised` does not matter. Listings as printed are left out.
 pub fn ranked(advised: &[MethodAdvice], criterion: usize) -> Vec<usize> {

@@ -50,12 +50,14 @@ pub(super) async fn follow_energy(
     let mut means = Means::over(horizon);
     // These are the largest kinetic energy, energy loss and energy gain, in joules.
     let (mut fastest, mut lost, mut gained) = (0.0_f64, 0.0_f64, 0.0_f64);
+    let mut change = 0.0;
     let see = |body: &FollowedBody, tick: u64| {
         (seconds, evaluations) = (tick_hz.seconds(tick), body.stepper.evaluations());
         let gain = body.energy() - body.base_j;
         let [kinetic, _] = body.energies();
         (fastest, lost, gained) = (fastest.max(kinetic), lost.max(-gain), gained.max(gain));
         means.add(tick, gain);
+        change = gain;
         ControlFlow::Continue(())
     };
     let stop = truth.run_until(&mut followed, horizon, see).await;
@@ -69,7 +71,7 @@ pub(super) async fn follow_energy(
     let scale = fastest.max(lost);
     if scale > 0.0 && scale.is_finite() {
         let [first, .., last] = means.means().map(|mean| mean / scale);
-        finding.change = last;
+        finding.change = change / scale;
         let drift = if gained > lost { gained } else { -lost };
         finding.drift_percent = is_conserved.then_some(100.0 * drift / scale);
         finding.trend = if is_conserved {

@@ -54,7 +54,7 @@ impl MotionChange {
         Self {
             long_term,
             within,
-            energy_change: Some(run.quarters[3]).filter(|change| conserves && change.is_finite()),
+            energy_change: run.energy_change.filter(|_| conserves),
             early_s: early_s.filter(|_| conserves),
             width: None,
             frequency_error: frequency_error.map(|measured| measured.error),

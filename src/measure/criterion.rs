@@ -134,8 +134,9 @@ impl CriterionMet {
         Some(format!("{more}{} × {}{mark}", round(factor, 3), self.limited_by.as_deref()?))
     }
 
-    /// Returns the reserve, which is the factor, from 1 to 10, by which the bodies may be stiffer at this rate, or
-    /// equivalently the rate lower. It is the smaller of the known margins, and `None` if neither is known.
+    /// Returns the reserve, which is the factor, at least 1, by which the bodies may be stiffer at this rate, or
+    /// equivalently the rate lower. It is the smaller of the known margins, and `None` if neither is known. A stiffness
+    /// that the search does not exceed is no margin.
     ///
     /// Both margins are factors of stiffness. A spring with f times the stiffness makes steps of the same angle at √f
     /// times the rate, so the ratio of rates is squared. At 1 Hz no lower rate is searched, and only the stiffness
@@ -146,8 +147,9 @@ impl CriterionMet {
             // The ratio is rounded down to one decimal, like the factors tried.
             libm::floor(10.0 * ratio * ratio) / 10.0
         });
-        let least = [of_rate, self.stiffness_factor].into_iter().flatten().reduce(f64::min)?;
-        Some(least.min(MAX_STIFFER))
+        let of_stiffness =
+            self.stiffness_factor.filter(|&factor| factor < MAX_STIFFER || of_rate.is_none());
+        [of_rate, of_stiffness].into_iter().flatten().reduce(f64::min)
     }
 
     /// Whether a margin is zero, because the next rate or the next factor tried fails.

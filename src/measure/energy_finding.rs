@@ -14,8 +14,7 @@ const GROWING_RADIUS: f64 = 1.01;
 /// Findings on a lane from its energy and the spectral radius.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct EnergyFinding {
-    /// Mean change of kinetic and potential energy in the last quarter of the run, without the energy that an input
-    /// adds. The unit is the largest kinetic energy, or the largest loss if the loss is larger.
+    /// Change of kinetic and potential energy at the end of the run, without the energy that an input adds. The unit is the largest kinetic energy, or the largest loss if the loss is larger.
     pub change: f64,
     /// Trend of the energy.
     pub trend: Trend,
@@ -52,9 +51,10 @@ impl EnergyFinding {
         if self.is_conserved { "keeps energy" } else { "gains no energy" }
     }
 
-    /// Describes the relative change of a conserved energy in words.
-    pub(super) fn number(&self) -> Option<String> {
-        self.is_conserved.then(|| format!("within {} %", round(100.0 * self.change.abs(), 2)))
+    /// Returns the largest change of a conserved energy in percent and in words.
+    pub(super) fn number(&self) -> Option<(f64, String)> {
+        let percent = self.drift_percent?.abs();
+        Some((percent, format!("within {} %", round(percent, 2))))
     }
 }
 

@@ -122,6 +122,11 @@ impl Judge {
         block_on(self.verdict_within(self.max_work, spec, tick_hz.into()))
     }
 
+    /// Returns the true motion of a body.
+    pub(super) fn truth(&self, body: usize) -> &BodyTruth {
+        &self.truths[body]
+    }
+
     /// Returns the meter that counts the judge's work.
     pub(super) fn meter(&self) -> &Arc<Meter> {
         &self.meter
@@ -142,7 +147,7 @@ impl Judge {
     }
 
     /// Combines the verdicts on a lane's bodies into one.
-    fn of_all(verdicts: Vec<Verdict>) -> Verdict {
+    pub(super) fn of_all(verdicts: Vec<Verdict>) -> Verdict {
         let evaluations = verdicts.iter().map(|verdict| verdict.evaluations).sum();
         let bounded = verdicts.iter().map(|verdict| verdict.long_term.is_bounded);
         let is_bounded = bounded.reduce(|a, b| match (a, b) {
@@ -236,6 +241,7 @@ impl Judge {
                 change,
                 looks_right,
                 width: width.or(too_wide),
+                widths: None,
                 early_s: early_s.filter(|&early_s| is_of_phase(early_s)),
                 energy_change,
                 energy_drift_percent: run.energy_drift,

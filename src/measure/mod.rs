@@ -19,6 +19,7 @@ mod frequency;
 mod futures;
 mod judge;
 mod modes;
+mod offset;
 mod one_step;
 mod outcome;
 mod rank;
@@ -36,7 +37,8 @@ mod worker;
 
 pub use crate::sim::number::duration;
 pub use advice::{
-    Adviser, CriterionMet, CriterionResult, MAX_ADVISED_SUBSTEPS, MethodAdvice, ranked, recommended,
+    Adviser, CriterionMet, CriterionResult, MAX_ADVISED_SUBSTEPS, MethodAdvice, TAKEN_FOR,
+    criterion_to_take, ranked, recommended,
 };
 pub use amplitude::{Measure, Trend};
 pub use chase_finding::ChaseFinding;
@@ -53,6 +55,7 @@ pub use run::MAX_WORK;
 pub use stability_map::{Coverage, DampingLine, MapRequest, PointStability, Region, StabilityMap};
 pub use truth::LONG_RUN;
 pub use verdict::{
-    Comparison, Finding, LongTerm, NoTruth, NotJudged, RunFailure, Verdict, VerdictNumber,
+    Comparison, Finding, LongTerm, NoTruth, NotJudged, RunFailure, SwingWidths, Verdict,
+    VerdictNumber,
 };
 pub use worker::{Advice, AdvisedBodies, AnalysisRequest, AnalysisWorker, Findings};

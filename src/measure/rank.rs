@@ -1,10 +1,11 @@
 //! The order in which methods that meet a criterion are recommended, shared by command, library and window.
 //!
-//! The lowest [cost](CriterionMet::cost_per_s) comes first. Ties go to the larger [reserve](CriterionMet::reserve),
-//! then to the fewest substeps, then to the place in the table of methods. A method with a reserve below
-//! [`LITTLE_RESERVE`] is passed over if another method has a larger reserve at up to [`TIMES_ITS_COST`] times the cost.
+//! The lowest [cost](CriterionMet::cost_per_s) comes first. Of equal costs a [last resort](is_last_resort) comes last;
+//! other ties go to the larger [reserve](CriterionMet::reserve), then to the fewest substeps, then to the place in the
+//! table of methods. A method with a reserve below [`LITTLE_RESERVE`] is passed over if another method has a larger
+//! reserve at up to [`TIMES_ITS_COST`] times the cost.
 
-use super::criterion::{CriterionMet, MAX_STIFFER};
+use super::criterion::CriterionMet;
 use crate::sim::integrators::{METHODS, Method};
 
 /// Reserve below which it counts as little, because a designer may well multiply the stiffness of a body by 1.5 in an
@@ -15,6 +16,11 @@ const LITTLE_RESERVE: f64 = 1.5;
 /// most methods, one more substep multiplies the cost by this.
 const TIMES_ITS_COST: f64 = 2.0;
 
+/// Whether a method makes an undamped swing grow in the first order of the step, so that only damping holds it.
+fn is_last_resort(method: &Method) -> bool {
+    method.order == 1 && method.stability_limit == Some(0.0)
+}
+
 /// The methods that meet a criterion, in order. A margin that is not searched counts as no reserve.
 pub(super) struct Ranking<'a> {
     all: Vec<Ranked<'a>>,
@@ -24,15 +30,22 @@ struct Ranked<'a> {
     index: usize,
     met: &'a CriterionMet,
     reserve: f64,
+    is_last_resort: bool,
     /// Key for equal costs and reserves, which has the substeps, the place in the table and the index.
     ties: (u32, usize, usize),
 }
 
 impl Ranked<'_> {
+    /// Whether this is a last resort, and `other` is none at the same cost.
+    fn is_replaced_by(&self, other: &Self) -> bool {
+        self.is_last_resort && !other.is_last_resort && other.met.cost_per_s <= self.met.cost_per_s
+    }
+
     /// Whether `other` has a larger reserve at little more cost.
     fn loses_to(&self, other: &Self) -> bool {
         self.reserve < LITTLE_RESERVE
             && other.reserve > self.reserve
+            && (self.is_last_resort || !other.is_last_resort)
             && other.met.cost_per_s <= TIMES_ITS_COST * self.met.cost_per_s
     }
 }
@@ -49,13 +62,15 @@ impl<'a> Ranking<'a> {
                 index,
                 met,
                 reserve: met.reserve().unwrap_or(0.0),
+                is_last_resort: is_last_resort(method),
                 ties: (met.substeps, place(method).unwrap_or(METHODS.len()), index),
             })
             .collect();
         all.sort_by(|a, b| {
             let by_cost = a.met.cost_per_s.total_cmp(&b.met.cost_per_s);
             let by_reserve = b.reserve.total_cmp(&a.reserve);
-            by_cost.then(by_reserve).then(a.ties.cmp(&b.ties))
+            let by_resort = a.is_last_resort.cmp(&b.is_last_resort);
+            by_cost.then(by_resort).then(by_reserve).then(a.ties.cmp(&b.ties))
         });
         Self { all }
     }
@@ -66,7 +81,9 @@ impl<'a> Ranking<'a> {
 
     /// Returns the index of the recommended method.
     pub(super) fn recommended_index(&self) -> Option<usize> {
-        let is_outdone = |one: &Ranked| self.all.iter().any(|other| one.loses_to(other));
+        let is_outdone = |one: &Ranked| {
+            self.all.iter().any(|other| one.loses_to(other) || one.is_replaced_by(other))
+        };
         self.all.iter().find(|one| !is_outdone(one)).map(|one| one.index)
     }
 
@@ -99,9 +116,8 @@ impl<'a> Ranking<'a> {
         let is_open = |it: &&Ranked| !it.met.are_margins_searched;
         let cost = |it: &Ranked| it.met.cost_per_s;
         for alike in self.all.chunk_by(|a, b| cost(a) == cost(b)) {
-            // No reserve exceeds the search limit.
             let best = &alike[0];
-            let may_win = |it: &&Ranked| best.reserve < MAX_STIFFER || it.ties < best.ties;
+            let may_win = |it: &&Ranked| it.is_last_resort == best.is_last_resort;
             let mut open: Vec<usize> =
                 alike.iter().filter(is_open).filter(may_win).map(|it| it.index).collect();
             if alike.iter().all(|it| is_open(&it)) {

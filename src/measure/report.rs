@@ -5,7 +5,7 @@ use std::fmt;
 use super::advice::passed_over;
 use super::{
     Adviser, CRITERIA, Criterion, CriterionMet, CriterionResult, MAX_ADVISED_SUBSTEPS,
-    MethodAdvice, Verdict, recommended,
+    MethodAdvice, TAKEN_FOR, Verdict, recommended,
 };
 use crate::scene::Scene;
 use crate::scene::custom::{Options, OptionsError};
@@ -245,7 +245,7 @@ fn method(advice: &MethodAdvice, index: &dyn Fn(Criterion) -> usize) -> MethodRe
     }
 }
 
-/// Writes the verdicts, and then a recommendation for each criterion.
+/// Writes the verdicts, and then one recommendation. Before it come the criteria that no method is known to meet.
 impl fmt::Display for Report {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let ids = self.methods.iter().map(|row| row.method.len());
@@ -254,10 +254,13 @@ impl fmt::Display for Report {
             writeln!(f, "{method:width$}  {verdict}")?;
         }
         writeln!(f)?;
-        for criterion in CRITERIA {
+        for criterion in TAKEN_FOR.map(|index| CRITERIA[index]) {
             write!(f, "{} at {:.3} Hz: {}: ", self.name, self.tick_hz, criterion.id())?;
             match self.recommended.get(criterion) {
-                Some(recommendation) => writeln!(f, "{recommendation}")?,
+                Some(recommendation) => {
+                    writeln!(f, "{recommendation}")?;
+                    break;
+                }
                 None if self.not_known.get(criterion).is_empty() => {
                     writeln!(f, "none of these with up to {MAX_ADVISED_SUBSTEPS} substeps")?;
                 }

@@ -75,6 +75,8 @@ pub(super) struct JudgedRun {
     /// Whether the swing was losing and was followed beyond the long run, and whether it came to rest there.
     pub(super) is_losing: bool,
     pub(super) has_come_to_rest: bool,
+    /// Change of the energy at the last tick within the horizon, in units of the largest true kinetic energy.
+    pub(super) energy_change: Option<f64>,
     /// Mean changes of the energy in the quarters of the horizon and of the long run, in units of the largest true
     /// kinetic energy.
     pub(super) quarters: [f64; 4],
@@ -185,6 +187,9 @@ impl RunMeter {
             }
         }
         let drift = self.energy.add(stepper, tick);
+        if tick <= horizon {
+            run.energy_change = drift;
+        }
         if tick <= horizon
             && let Some((drift, part)) = drift.zip(self.energy.percent)
         {

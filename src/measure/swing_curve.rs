@@ -38,16 +38,21 @@ impl SwingCurve {
             .unwrap_or(PI)
     }
 
-    /// Returns the number of complete half turns after `seconds`. The first half turn begins at the start.
-    fn half_turns(&self, seconds: f64) -> f64 {
-        let turned = self.frequency * seconds - self.first_passage();
-        (libm::floor(turned / PI) + 1.0).max(0.0)
+    /// Returns the angle of the peak of the first half turn, which is not above 0 if it is before the start.
+    fn first_peak(&self) -> f64 {
+        self.first_passage() - FRAC_PI_2 + libm::atan(self.growth_per_s / self.frequency)
+    }
+
+    /// Returns the index of the half turn whose peak is the last one within `seconds`. That half turn need not be
+    /// complete.
+    fn last_peak(&self, seconds: f64) -> f64 {
+        libm::floor((self.frequency * seconds - self.first_peak()) / PI)
     }
 
     /// Returns the largest distance from the place of rest in the half turn with this index.
     fn reach(&self, half_turn: f64) -> f64 {
         let slope = self.growth_per_s / self.frequency;
-        let peak = self.first_passage() - FRAC_PI_2 + libm::atan(slope);
+        let peak = self.first_peak();
         let cos = 1.0 / libm::hypot(1.0, slope);
         let at_peak = |angle: f64| self.width() * cos * libm::exp(slope * angle);
         match half_turn {
@@ -61,8 +66,8 @@ impl SwingCurve {
         self.reach(0.0).max(self.reach(1.0))
     }
 
-    /// Like [`Self::reach`] for the first half turn, from states that are `step_s` apart. A first step that turns back
-    /// at once shows no peak.
+    /// Like [`Self::reach`] for the first half turn of a swing that begins at its peak, from states that are `step_s`
+    /// apart. A first step that turns back at once shows no other peak.
     fn first_reach(&self, step_s: f64) -> f64 {
         let (sin, cos) = libm::sincos(self.frequency * step_s);
         let next = libm::exp(self.growth_per_s * step_s) * (self.q * cos + self.b * sin);
@@ -75,9 +80,10 @@ impl SwingCurve {
     ///
     /// If there is no decay, all half turns are equally wide, and the incomplete first one is not compared.
     pub(super) fn misfit(&self, other: &Self, step_s: f64, seconds: f64) -> f64 {
-        let last = self.half_turns(seconds).min(other.half_turns(seconds)).max(1.0) - 1.0;
+        let last = self.last_peak(seconds).min(other.last_peak(seconds));
         let first = match self.growth_per_s {
             0.0 => 0.0,
+            _ if self.first_peak() > 0.0 => (self.reach(0.0) - other.reach(0.0)).abs(),
             _ => (self.reach(0.0) - other.first_reach(step_s)).abs(),
         };
         // From the second half turn on, both widths are geometric sequences, and their difference has one extreme.
@@ -130,7 +136,9 @@ mod tests {
                 let (b, q) = libm::sincos(angle);
                 let curve = SwingCurve { q, b, growth_per_s, frequency: 4.0 };
                 let wanted = stepped(&curve, 10.0);
-                assert_eq!(curve.half_turns(10.0), wanted.len() as f64, "{curve:?}");
+                // The last half turn may be past its peak, but not complete.
+                let last = curve.last_peak(10.0) - (wanted.len() as f64 - 1.0);
+                assert!([0.0, 1.0].contains(&last), "{curve:?}: {last}");
                 for (half_turn, wanted) in wanted.into_iter().enumerate() {
                     let found = curve.reach(half_turn as f64);
                     assert!((found / wanted - 1.0).abs() < 1e-5, "{curve:?}: {half_turn}");
@@ -163,9 +171,9 @@ mod tests {
             let (q, b) = (width * truth.q, width * truth.b);
             let other = SwingCurve { q, b, growth_per_s, ..truth };
             for seconds in [2.0, 12.0, 60.0] {
-                let last = truth.half_turns(seconds).min(other.half_turns(seconds)) as u32;
+                let last = truth.last_peak(seconds).min(other.last_peak(seconds)) as u32;
                 let gaps =
-                    (0..last).map(f64::from).map(|k| (truth.reach(k) - other.reach(k)).abs());
+                    (0..=last).map(f64::from).map(|k| (truth.reach(k) - other.reach(k)).abs());
                 let wanted = gaps.fold(0.0, f64::max) / truth.widest();
                 let found = truth.misfit(&other, 1e-9, seconds);
                 assert!(
@@ -182,14 +190,23 @@ mod tests {
     }
 
     #[test]
-    fn a_peak_before_the_first_step_counts_for_a_decaying_swing() {
+    fn the_peak_within_the_first_step_and_that_of_the_last_half_turn_count() {
+        // The first peak is at 0.3 s, and the swing is back where it began at 0.6 s.
         let (b, q) = libm::sincos(0.3);
         let truth = SwingCurve { q, b, growth_per_s: -0.01, frequency: 1.0 };
-        let gap = 1.0 - libm::cos(0.3);
-        // After 0.6 s the swing is back where it began.
-        assert!(truth.misfit(&truth, 0.55, 60.0) < 1e-12);
-        assert!((truth.misfit(&truth, 0.61, 60.0) - gap).abs() < 0.005);
-        let kept = SwingCurve { growth_per_s: 0.0, ..truth };
-        assert_eq!(kept.misfit(&kept, 0.61, 60.0), 0.0);
+        for step_s in [0.1, 0.55, 0.61, 1.0] {
+            assert_eq!(truth.misfit(&truth, step_s, 60.0), 0.0, "{step_s} s");
+        }
+        // A curve that begins at its peak has no other one before its first step.
+        let at_peak = SwingCurve { q: 1.0, b: 0.0, ..truth };
+        let early = SwingCurve { q: 1.0, b: -0.4, ..truth };
+        assert!(at_peak.misfit(&early, 0.1, 0.2) < 1e-9);
+        // The fourth peak is at 9.7 s, and the fourth half turn ends at 11.3 s.
+        let faster = SwingCurve { growth_per_s: -0.02, ..truth };
+        let peaks = |k: f64| (truth.reach(k) - faster.reach(k)).abs();
+        assert!(
+            (truth.misfit(&faster, 0.1, 10.0) * truth.widest() / peaks(3.0) - 1.0).abs() < 1e-9
+        );
+        assert!((truth.misfit(&faster, 0.1, 9.0) * truth.widest() / peaks(2.0) - 1.0).abs() < 1e-9);
     }
 }

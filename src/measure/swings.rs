@@ -106,9 +106,12 @@ impl Swings {
         }
         for i in 0..self.centres.len() {
             let goes_down = |to: usize| self.nodes[to].q[i] < self.nodes[to - 1].q[i];
-            // A first step that turns back at once shows no peak.
+            // A first step shows a peak only to a motion that begins outwards.
+            let goes_out = || self.nodes[1].v[i] * self.distance(1, i) > 0.0;
             if self.has_before && goes_down(1) != goes_down(2) {
                 self.find_peak(stepper, 0, i);
+                self.find_peak(stepper, 1, i);
+            } else if !self.has_before && goes_out() {
                 self.find_peak(stepper, 1, i);
             }
         }

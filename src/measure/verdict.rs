@@ -87,6 +87,17 @@ pub enum Finding {
     NotJudged(NotJudged),
 }
 
+/// Half the widths of the swing of a lane that was not in the true state at the start, and of the true swing.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SwingWidths {
+    /// Largest distance of the lane from the middle of its swing, in `unit`.
+    pub own: f64,
+    /// Largest distance of the exact body.
+    pub truth: f64,
+    /// Unit of the swinging coordinate, which is empty for a pure number.
+    pub unit: &'static str,
+}
+
 /// A run compared with the truth over the horizon. Errors are in amplitudes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
@@ -106,10 +117,13 @@ pub struct Comparison {
     /// Largest width of the swing relative to the true one; `None` if nothing swings. For a nonlinear body the width is
     /// known only at ticks, and `None` if the swing is not wider than the true one.
     pub width: Option<f64>,
+    /// The widths of both swings, if the lane was not in the true state at the start.
+    pub widths: Option<SwingWidths>,
     /// Seconds by which the motion is early at the end of the horizon, negative if it is late. `None` if this shift
     /// does not cause most of the error.
     pub early_s: Option<f64>,
-    /// Change of the energy, in units of the largest true kinetic energy; `None` if energy is not conserved.
+    /// Change of the energy at the end of the horizon, in units of the largest true kinetic energy; `None` if energy is
+    /// not conserved.
     pub energy_change: Option<f64>,
     /// Energy drift of largest magnitude, in percent of the energy that the motion exchanges; `None` if energy is not
     /// conserved.
@@ -174,8 +188,8 @@ pub struct Verdict {
     pub seconds: f64,
     /// Length of the horizon in simulated seconds.
     pub horizon_s: f64,
-    /// Time of the run, in seconds, at which the judged part begins. This is 0, or the time of a person's last kick or
-    /// placement. Other times count from there, but displayed moments are times of the run.
+    /// Time of the run, in seconds, at which the judged part begins. This is 0, or the time of the last change of the
+    /// run. Other times count from there, but displayed moments are times of the run.
     pub starts_at_s: f64,
     /// The verdicts on the bodies of the scene, in the order of the scene; empty in a verdict on one of these bodies.
     pub of_bodies: Vec<Verdict>,

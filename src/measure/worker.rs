@@ -3,14 +3,14 @@
 
 use std::sync::Arc;
 
-use super::advice::{Adviser, MethodAdvice};
+use super::advice::{Adviser, MethodAdvice, criterion_to_take, recommended};
 use super::judge::{Judge, horizon_s};
 use super::run::MAX_WORK;
 use super::slices::{Meter, Sliced};
 use super::stability_map::{MapRequest, MapWork, StabilityMap};
 use super::verdict::Verdict;
 use crate::run::race::Interventions;
-use crate::scene::{LaneSpec, Scene};
+use crate::scene::{LaneId, LaneSpec, Scene};
 use crate::sim::TickRate;
 
 /// The bodies of a scene that advice covers.
@@ -37,13 +37,15 @@ impl AdvisedBodies {
 #[derive(Clone, Debug)]
 pub struct AnalysisRequest {
     pub(crate) scene: Arc<Scene>,
-    /// The lanes to judge.
-    pub(crate) entries: Vec<LaneSpec>,
+    /// The methods to judge, each with the lane from whose state it is judged; `None` for the true state.
+    pub(crate) entries: Vec<(LaneSpec, Option<LaneId>)>,
     /// Number of lanes, from the first, that share the work limit of a bounded worker. The other lanes get the rest.
     pub(crate) first: usize,
     pub(crate) tick_hz: TickRate,
     /// Edits to the judged run.
     pub(crate) by_hand: Interventions,
+    /// Edits to the run that advice is about.
+    pub(crate) advised: Interventions,
     /// The bodies to give advice on, if advice is requested.
     pub(crate) advice: Option<AdvisedBodies>,
     /// The stability map, if a map is requested.
@@ -69,6 +71,7 @@ impl AnalysisRequest {
             && self.tick_hz == other.tick_hz
             && self.by_hand == other.by_hand
             && self.advice == other.advice
+            && (self.advice.is_none() || self.advised == other.advised)
             && self.map == other.map
     }
 }
@@ -106,6 +109,17 @@ pub struct Advice {
     pub wanted: usize,
     /// The advice on the methods judged up to now.
     pub advised: Vec<MethodAdvice>,
+    /// Whether all margins that affect the recommendation are searched, so that it is final.
+    pub is_decided: bool,
+}
+
+impl Advice {
+    /// Returns the indices of the method to take and of the criterion that it meets; `None` until this is final, or if
+    /// no method is known to meet one.
+    pub fn to_take(&self) -> Option<(usize, usize)> {
+        let criterion = criterion_to_take(&self.advised).filter(|_| self.is_decided)?;
+        Some((recommended(&self.advised, criterion)?, criterion))
+    }
 }
 
 /// Work limit of a bounded worker for all verdicts together, including the truth, which is a second or two.
@@ -120,6 +134,8 @@ pub struct AnalysisWorker {
     max_work: u64,
     request: AnalysisRequest,
     judge: Option<Arc<Judge>>,
+    /// Judges of the true motions from the states of lanes.
+    of_lanes: Vec<(LaneId, Arc<Judge>)>,
     verdicts: Vec<Option<Verdict>>,
     /// Number of leading verdicts that answer the current request.
     judged: usize,
@@ -133,6 +149,7 @@ pub struct AnalysisWorker {
 /// A part of the answer, computed in slices.
 enum AnswerPart {
     Judge(Arc<Judge>),
+    JudgeOfLane(LaneId, Arc<Judge>),
     Verdict(Box<Verdict>),
     Adviser(AdvisedBodies, Arc<Adviser>),
     /// The advice in this row, which is new or has more searched margins.
@@ -148,6 +165,7 @@ struct AdviceInProgress {
     advised: Vec<MethodAdvice>,
     /// Margins that remain to be searched, with the first one last; `None` until all methods are judged.
     margins: Option<Vec<(usize, usize)>>,
+    is_decided: bool,
 }
 
 impl AdviceInProgress {
@@ -158,7 +176,7 @@ impl AdviceInProgress {
         // Racing methods come first, because a person sees them.
         lanes.sort_by_key(|spec| place(spec).unwrap_or(usize::MAX));
         let (advised, margins) = (Vec::new(), None);
-        Self { bodies, adviser, lanes, advised, margins }
+        Self { bodies, adviser, lanes, advised, margins, is_decided: false }
     }
 
     /// Returns the next method to judge or, if all are judged, the next margin to search.
@@ -196,9 +214,10 @@ impl AdviceInProgress {
 
     /// Returns the margins to search next, with the first one last. Margins that affect the recommendation precede the
     /// others.
-    fn next_margins(&self) -> Vec<(usize, usize)> {
+    fn next_margins(&mut self) -> Vec<(usize, usize)> {
         let mut margins = self.adviser.undecided_margins(&self.advised);
         if margins.is_empty() {
+            self.is_decided = true;
             margins = self.adviser.worth_margins(&self.advised);
         }
         margins.reverse();
@@ -218,6 +237,7 @@ impl AnalysisWorker {
             max_work: u64::MAX,
             request,
             judge: None,
+            of_lanes: Vec::new(),
             verdicts,
             judged: 0,
             advising: None,
@@ -243,9 +263,10 @@ impl AnalysisWorker {
         let is_same_run = request.by_hand == self.request.by_hand;
         if !is_same_run {
             self.judge = None;
+            self.of_lanes.clear();
         }
         let is_at_same_rate = is_same_run && request.tick_hz == self.request.tick_hz;
-        if !is_at_same_rate {
+        if request.advised != self.request.advised || request.tick_hz != self.request.tick_hz {
             self.advising = None;
         }
         let pairs = request.entries.iter().zip(&self.request.entries);
@@ -289,9 +310,10 @@ impl AnalysisWorker {
 
     /// Returns the next part of the answer, if one is missing.
     fn next_part(&mut self) -> Option<Sliced<AnswerPart>> {
-        let AnalysisRequest { scene, by_hand, entries, first, tick_hz, advice, .. } = &self.request;
+        let AnalysisRequest { scene, by_hand, advised, entries, first, tick_hz, advice, .. } =
+            &self.request;
         let (tick_hz, meter) = (*tick_hz, Arc::<Meter>::default());
-        if let Some(&spec) = entries.get(self.judged) {
+        if let Some(&(spec, lane)) = entries.get(self.judged) {
             let Some(judge) = self.judge.clone() else {
                 let scene = by_hand.applied_to(scene);
                 return Some(Sliced::new(meter.clone(), async move {
@@ -299,19 +321,35 @@ impl AnalysisWorker {
                     AnswerPart::Judge(Judge::find(&scene, 1.0, horizon_s, meter).await.into())
                 }));
             };
+            let known = self.of_lanes.iter().find(|(id, _)| Some(*id) == lane);
+            let of_lane = known.map(|(_, judge)| judge.clone());
+            if let Some(lane) = lane.filter(|_| of_lane.is_none()) {
+                let scene = by_hand.applied_to_lane(scene, lane);
+                let meter = judge.meter().clone();
+                return Some(Sliced::new(meter.clone(), async move {
+                    let judge = Judge::find(&scene, 1.0, judge.horizon_s(), meter).await;
+                    AnswerPart::JudgeOfLane(lane, judge.into())
+                }));
+            }
             // Work that earlier verdicts did not use is left for later ones.
             let left = self.max_work.saturating_sub(judge.meter().counted());
             let sharers = if self.judged < *first { *first } else { entries.len() };
             let share = (left / (sharers - self.judged) as u64).min(MAX_WORK);
             return Some(Sliced::new(judge.meter().clone(), async move {
-                AnswerPart::Verdict(judge.verdict_within(share, spec, tick_hz).await.into())
+                let Some(of_lane) = of_lane else {
+                    return AnswerPart::Verdict(
+                        judge.verdict_within(share, spec, tick_hz).await.into(),
+                    );
+                };
+                let verdict = of_lane.verdict_within(share, spec, tick_hz).await;
+                AnswerPart::Verdict(verdict.beside(&of_lane, &judge, tick_hz).await.into())
             }));
         }
         let bodies = (*advice)?;
         if let Some(advising) = &mut self.advising {
             return advising.next();
         }
-        let scene = bodies.of(by_hand.applied_to(scene));
+        let scene = bodies.of(advised.applied_to(scene));
         Some(Sliced::new(meter.clone(), async move {
             AnswerPart::Adviser(bodies, Adviser::find(scene, 1.0, tick_hz, meter).await.into())
         }))
@@ -320,6 +358,7 @@ impl AnalysisWorker {
     fn accept(&mut self, found: AnswerPart) {
         match found {
             AnswerPart::Judge(judge) => self.judge = Some(judge),
+            AnswerPart::JudgeOfLane(lane, judge) => self.of_lanes.push((lane, judge)),
             AnswerPart::Verdict(verdict) => {
                 let starts_at_s = self.request.by_hand.starts_at_s();
                 self.verdicts[self.judged] = Some(verdict.starting_at(starts_at_s));
@@ -362,13 +401,15 @@ impl AnalysisWorker {
     /// Returns the findings up to now.
     pub fn findings(&self) -> Findings {
         let advice = self.advising.as_ref().filter(|_| self.request.advice.is_some());
-        let advice =
-            advice.map(|AdviceInProgress { bodies, adviser, lanes, advised, .. }| Advice {
+        let advice = advice.map(
+            |AdviceInProgress { bodies, adviser, lanes, advised, is_decided, .. }| Advice {
                 bodies: *bodies,
+                is_decided: *is_decided,
                 tick_hz: adviser.tick_hz(),
                 wanted: lanes.len(),
                 advised: advised.clone(),
-            });
+            },
+        );
         Findings {
             request: self.request.clone(),
             verdicts: self.verdicts.clone(),

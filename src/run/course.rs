@@ -1,9 +1,9 @@
 //! The course of a run from its start to the last tick reached, with its session, observations, snapshots and events.
 
 use super::observations::ObservationsMark;
-use super::race::{Journal, Observer, PerformedAction, Race};
+use super::race::{Author, Journal, Observer, PerformedAction, Race};
 use super::{Event, EventKind, Observations, Session};
-use crate::scene::{Action, LaneId};
+use crate::scene::{Action, Check, LaneId};
 
 /// A run from its start to the last tick reached, whichever tick is the present. A restart replaces the course, and
 /// undoing the restart brings it back.
@@ -11,6 +11,19 @@ pub(super) struct Course {
     pub(super) session: Session,
     pub(super) seen: Observations,
     pub(super) record: RunRecord,
+    /// Checks of the scene by tick. There are none if the run does not start as the scene does.
+    checks: Vec<Check>,
+}
+
+/// A check of the scene that the run has reached.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Checked {
+    /// Tick of the check.
+    pub tick: u64,
+    /// The checked lane.
+    pub lane: LaneId,
+    /// Whether the lane had the recorded state.
+    pub is_same: bool,
 }
 
 /// The record of a run's progress, which can be rebuilt by replaying the run.
@@ -23,12 +36,22 @@ pub(super) struct RunRecord {
     pub(super) halts: Vec<Event>,
     /// Hashes in the order in which the run first reached their ticks.
     pub(super) hashes: Vec<Hashes>,
+    /// Checks in the order in which the run first reached their ticks, while no person had acted on it.
+    pub(super) checked: Vec<Checked>,
 }
 
 impl Course {
-    pub(super) fn new(session: Session) -> Self {
+    /// Creates a course at its start. `has_checks` states that the session starts as its scene does.
+    pub(super) fn new(session: Session, has_checks: bool) -> Self {
         let seen = Observations::new(session.race(), session.scene().seconds);
-        let mut course = Self { session, seen, record: RunRecord::default() };
+        let (scene, race) = (session.scene(), session.race());
+        let starts_alike = |check: &&Check| {
+            let spec = scene.lanes.get(check.lane.index());
+            has_checks && race.entrant(check.lane).is_some_and(|it| Some(&it.spec) == spec)
+        };
+        let mut checks: Vec<Check> = scene.checks.iter().filter(starts_alike).copied().collect();
+        checks.sort_by_key(|check| check.tick);
+        let mut course = Self { session, seen, record: RunRecord::default(), checks };
         course.record.snapshots.push(course.snapshot());
         course
     }
@@ -59,6 +82,7 @@ impl Course {
             record.end = race.tick();
             record.halts.extend(halts(race));
             note_hashes(&mut record.hashes, race);
+            note_checks(&self.checks, &mut record.checked, race);
         }
     }
 
@@ -81,7 +105,7 @@ impl Course {
 impl RunRecord {
     /// Splits off every record that depends on the actions at `tick`.
     pub(super) fn split_off(&mut self, tick: u64) -> Self {
-        let Self { end, snapshots, halts, hashes } = self;
+        let Self { end, snapshots, halts, hashes, checked } = self;
         // Snapshots and hashes show a tick as the session reached it, before the actions at that tick; so those at
         // `tick` stay.
         let later = snapshots.partition_point(|snapshot| snapshot.race.tick() <= tick);
@@ -90,16 +114,19 @@ impl RunRecord {
         let halts = halts.split_off(later);
         let later = hashes.partition_point(|it| it.tick <= tick);
         let hashes = hashes.split_off(later);
-        Self { end: std::mem::replace(end, tick), snapshots, halts, hashes }
+        let later = checked.partition_point(|check| check.tick <= tick);
+        let checked = checked.split_off(later);
+        Self { end: std::mem::replace(end, tick), snapshots, halts, hashes, checked }
     }
 
     /// Appends a record that [`Self::split_off`] returned.
     pub(super) fn extend(&mut self, other: Self) {
-        let Self { end, snapshots, halts, hashes } = other;
+        let Self { end, snapshots, halts, hashes, checked } = other;
         self.end = end;
         self.snapshots.extend(snapshots);
         self.halts.extend(halts);
         self.hashes.extend(hashes);
+        self.checked.extend(checked);
     }
 }
 
@@ -158,4 +185,17 @@ pub(super) fn note_hashes(hashes: &mut Vec<Hashes>, race: &Race) {
             !is_odd
         });
     }
+}
+
+/// Compares a tick just reached with its checks, unless a person has acted on the run. `checks` are sorted by tick.
+fn note_checks(checks: &[Check], checked: &mut Vec<Checked>, race: &Race) {
+    let from = checks.partition_point(|check| check.tick < race.tick());
+    let due = checks[from..].iter().take_while(|check| check.tick == race.tick());
+    let mut rows = race.journal().rows()[..race.done()].iter();
+    if due.clone().next().is_none() || rows.any(|row| row.author == Author::Person) {
+        return;
+    }
+    checked.extend(due.filter_map(|&Check { tick, lane, hash }| {
+        Some(Checked { tick, lane, is_same: race.lane_hash(lane)? == hash })
+    }));
 }

@@ -1,14 +1,15 @@
 //! The menu of methods from which a person picks.
 
-use super::race::{PerformedAction, Race, Switch};
-use crate::scene::{LaneId, LaneSpec};
+use super::race::{Entrant, Mode, PerformedAction, Race, Switch};
+use crate::scene::{Action, LaneId, LaneSpec};
 
 /// Index of a method in a [`Menu`].
 pub type MenuIndex = usize;
 
 /// The methods to which digits, rows and colours refer by index. First come the scene's lanes, then all other methods
 /// that fit the scene's bodies. Each entry has the substeps and tolerance that its lane uses, or used last. The menu
-/// follows the switches of a run, without being part of the run.
+/// follows the switches of a run, without being part of the run. A lane of a race that a script has switched to another
+/// method keeps its entry, and so its digit and its colour.
 #[derive(Clone, Debug)]
 pub struct Menu {
     specs: Vec<LaneSpec>,
@@ -24,7 +25,10 @@ impl Menu {
             // Identical lanes get separate entries while any are free.
             let mut own = 0..menu.specs.len();
             let own = own.find(|&at| menu.specs[at] == entrant.spec && menu.lane(at).is_none());
-            let entry = own.unwrap_or_else(|| menu.entry_for(entrant.id, entrant.spec));
+            let entry = own.unwrap_or_else(|| match menu.specs.contains(&entrant.spec) {
+                true => menu.added(entrant.spec),
+                false => menu.entry_for(entrant.id, entrant.spec),
+            });
             menu.lane_entries.push((entrant.id, entry));
         }
         menu
@@ -57,16 +61,30 @@ impl Menu {
         size_of_val(&self.specs[..]) + size_of_val(&self.lane_entries[..])
     }
 
-    /// Follows an action. A switched lane takes another entry, and lanes that left the race release theirs.
+    /// Follows an action. A lane that is switched solo takes another entry. In a race each lane keeps its own, because
+    /// two lanes may come under one method. Lanes that left the race release theirs.
     pub(super) fn follow(&mut self, race: &Race, done: &PerformedAction) {
-        if let Some(Switch { lane, spec, .. }) = done.switch {
-            let entry = self.entry_for(lane, spec);
-            self.lane_entries
-                .iter_mut()
-                .filter(|(known, _)| *known == lane)
-                .for_each(|it| it.1 = entry);
-        }
         self.lane_entries.retain(|(lane, _)| race.entrant(*lane).is_some());
+        match (race.mode(), done.switch, &done.action) {
+            (Mode::Race, Some(Switch { lane, spec, .. }), _) => {
+                let own = self.entry(lane);
+                if self.specs[own].method == spec.method {
+                    self.specs[own] = spec;
+                }
+            }
+            (Mode::Solo, Some(_), _) | (_, None, Action::Solo { .. }) => {
+                for Entrant { id, spec, .. } in race.entrants() {
+                    let entry = self.entry_for(*id, *spec);
+                    self.lane_entries = vec![(*id, entry)];
+                }
+            }
+            _ => {}
+        }
+    }
+
+    fn added(&mut self, spec: LaneSpec) -> MenuIndex {
+        self.specs.push(spec);
+        self.specs.len() - 1
     }
 
     /// Returns the index for a lane that switches to `spec`, so that the menu lists every lane's method. An entry equal
@@ -82,11 +100,8 @@ impl Menu {
             self.specs[entry].method == spec.method && !self.lane_entries.iter().any(by_other)
         };
         let free = self.known_entry(lane).into_iter().chain(0..self.specs.len()).find(is_free);
-        let entry = free.unwrap_or(self.specs.len());
-        match self.specs.get_mut(entry) {
-            Some(known) => *known = spec,
-            None => self.specs.push(spec),
-        }
+        let Some(entry) = free else { return self.added(spec) };
+        self.specs[entry] = spec;
         entry
     }
 }
@@ -99,7 +114,7 @@ mod tests {
     use crate::sim::integrators::method;
 
     #[test]
-    fn the_menu_has_the_method_of_every_lane_even_if_several_share_one() {
+    fn lanes_of_a_race_keep_their_entries_even_if_several_come_under_one_method() {
         let specs = ["rk4", "explicit-euler"].map(|id| LaneSpec::plain(method(id).unwrap()));
         let scene = Scene { lanes: specs.to_vec(), ..Scene::built_in("spring").unwrap() };
         let mut race = Race::new(&scene, specs);
@@ -109,14 +124,15 @@ mod tests {
         let substeps = |lane, substeps| Action::Substeps { lane, substeps };
         for action in [lane(b), substeps(b, 3), substeps(a, 3), substeps(a, 2), substeps(b, 4)] {
             race.perform(&action, &mut seen);
-            for entrant in race.entrants() {
-                let listed = seen.menu().specs()[seen.menu().entry(entrant.id)];
-                assert_eq!(listed, entrant.spec, "{action:?}");
-                let flown = (entrant.lane.solver(), entrant.lane.substeps());
-                assert_eq!((listed.solver(), listed.substeps), flown, "{action:?}");
-            }
+            assert_eq!([a, b].map(|lane| seen.menu().entry(lane)), [0, 1], "{action:?}");
+            assert_eq!([0, 1].map(|entry| seen.menu().lane(entry)), [Some(a), Some(b)]);
+            assert_eq!(seen.menu().specs()[0], race.entrants()[0].spec, "{action:?}");
         }
         assert_eq!(seen.menu().specs()[1], specs[1], "a method stays though no lane flies it");
+        // Alone, the lane has the entry of its method.
+        race.perform(&Action::Solo { lane: b }, &mut seen);
+        assert_eq!(seen.menu().specs()[seen.menu().entry(b)], race.entrants()[0].spec);
+        assert_eq!(seen.menu().specs()[1], specs[1]);
     }
 
     #[test]

@@ -10,9 +10,10 @@
 use std::mem::{replace, swap};
 
 use crate::scene::Action;
+pub use course::Checked;
 use course::{Course, Hashes, RunRecord, Snapshot};
 use past::Past;
-use race::{Checkpoints, Mode, Observer, PerformedAction, TimeScale};
+use race::{Author, Checkpoints, Mode, Observer, PerformedAction, TimeScale};
 use undo::{Change, Replaced, ReplacedFuture, UndoStack};
 
 mod course;
@@ -89,7 +90,8 @@ impl Run {
     }
 
     fn of(next: StartSettings, session: Session) -> Self {
-        let (course, changes) = (Course::new(session), UndoStack::default());
+        let course = Course::new(session, next.is_as_opened());
+        let changes = UndoStack::default();
         Self { course, next, spacing: SPACING, limit: SNAPSHOT_BYTES, changes }
     }
 
@@ -161,6 +163,18 @@ impl Run {
         self.changes.undone.last().map(|change| &change.what[..])
     }
 
+    /// Returns the checks of the scene that the run has reached, by tick. A run that a person has changed has no
+    /// further ones.
+    pub fn checked(&self) -> &[Checked] {
+        &self.course.record.checked
+    }
+
+    /// Returns the first failed check up to the present tick.
+    pub fn first_failed_check(&self) -> Option<Checked> {
+        let reached = self.checked().iter().take_while(|check| check.tick <= self.race().tick());
+        reached.copied().find(|check| !check.is_same)
+    }
+
     /// Returns the events up to the last tick reached, in order.
     pub fn events(&self) -> Vec<Event> {
         let rows = self.course.session.journal().rows().iter();
@@ -203,13 +217,32 @@ impl Run {
         self.act_within(action, &mut ()).is_some()
     }
 
-    /// Performs an action as part of the open change, or of a new one. Edits also apply to the next restart. Returns
-    /// `None` if the action changes nothing.
+    /// Whether [`act_within`](Self::act_within) replaces the only action of the open change by this one, because both
+    /// set the same quantity at the present tick.
+    pub(crate) fn replaces_open_action(&self, action: &Action) -> bool {
+        let (race, Some(change)) = (self.race(), self.changes.open()) else { return false };
+        let Replaced::Future(ReplacedFuture { tick, rows, .. }) = &change.replaced else {
+            return false;
+        };
+        let performed = race.journal().rows()[..race.done()].get(rows.kept..);
+        let Some([only]) = performed.filter(|_| *tick == race.tick()) else { return false };
+        only.author == Author::Person && only.action.sets_same(action)
+    }
+
+    /// Performs an action as part of the open change, or of a new one. In a drag while time waits, the last value
+    /// replaces the earlier ones, and a drag that returns to the first value leaves no change. Edits also apply to the
+    /// next restart. Returns `None` if the action changes nothing.
     pub(crate) fn act_within(
         &mut self,
         action: Action,
         observer: &mut dyn Observer,
     ) -> Option<PerformedAction> {
+        if self.replaces_open_action(&action) {
+            let mut change = self.changes.done.pop().expect("it is open");
+            self.swap_change(&mut change);
+        } else if !self.changes.is_open() && action.sets_same(&action) {
+            self.take_snapshot_before_actions();
+        }
         let was_past = self.is_in_past();
         let journal = self.course.session.journal().clone();
         let tick = self.race().tick();
@@ -239,7 +272,12 @@ impl Run {
     ) -> bool {
         let before = self.next.clone();
         let is_changed = set(&mut self.next);
-        if is_changed && !self.changes.is_open() {
+        if let Some(Change { next, replaced: Replaced::Nothing, .. }) = self.changes.open()
+            && next.has_same_values(&self.next)
+        {
+            self.changes.done.pop();
+            self.changes.close();
+        } else if is_changed && !self.changes.is_open() {
             let (what, replaced) = (what.to_owned(), Replaced::Nothing);
             self.changes.push(Change { what, next: before, replaced });
         }
@@ -251,7 +289,8 @@ impl Run {
     pub(crate) fn restart(&mut self, kept: Option<&str>, set: impl FnOnce(&mut StartSettings)) {
         let before = self.next.clone();
         set(&mut self.next);
-        let course = replace(&mut self.course, Course::new(self.next.session()));
+        let begun = Course::new(self.next.session(), self.next.is_as_opened());
+        let course = replace(&mut self.course, begun);
         self.changes.undone.clear();
         if let Some(what) = kept {
             let (what, replaced) = (what.to_owned(), Replaced::Course(Box::new(course)));
@@ -366,7 +405,7 @@ impl Run {
 
     /// Moves to `tick` from a snapshot.
     fn restore(&mut self, tick: u64) {
-        let Course { session, seen, record: RunRecord { snapshots, .. } } = &mut self.course;
+        let Course { session, seen, record: RunRecord { snapshots, .. }, .. } = &mut self.course;
         let nearest = snapshots.partition_point(|snapshot| snapshot.race.tick() <= tick) - 1;
         let is_ahead = (snapshots[nearest].race.tick()..tick).contains(&session.race.tick());
         if !is_ahead {
@@ -391,6 +430,16 @@ impl Run {
     fn repeat_to(&mut self, tick: u64) {
         while self.race().tick() < tick {
             self.tick(&mut ());
+        }
+    }
+
+    /// Adds a snapshot of the present if no action has been performed at its tick, so that the next action can be taken
+    /// back without repeating ticks.
+    fn take_snapshot_before_actions(&mut self) {
+        let race = self.race();
+        let last = race.journal().rows()[..race.done()].last();
+        if last.is_none_or(|row| row.tick < race.tick()) {
+            self.take_snapshot();
         }
     }
 

@@ -37,7 +37,6 @@ mod ticker;
 
 pub use observer::{Observer, PerformedAction, Switch};
 pub(crate) use run_start::Checkpoints;
-use run_start::{BodyStart, RunStart};
 
 /// Whether one method runs at a time, or all of them at once.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

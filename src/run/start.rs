@@ -3,7 +3,7 @@
 
 use std::sync::Arc;
 
-use super::race::{Mode, PerformedAction, Race, lanes_that_race};
+use super::race::{Mode, PerformedAction, Race, Switch, lanes_that_race};
 use super::{Menu, MenuIndex, Session};
 use crate::scene::{
     Action, LaneId, LaneSpec, MAX_LANES, MAX_SECONDS, MIN_SECONDS, Scene, SceneBody, edited_values,
@@ -106,6 +106,21 @@ impl StartSettings {
         Session::new(Arc::clone(&self.scene), race)
     }
 
+    /// Whether the run starts as the scene was opened, apart from its mode and its solo method.
+    pub(crate) fn is_as_opened(&self) -> bool {
+        let bodies = self.scene.bodies.iter().zip(&self.opened.bodies);
+        self.tick_hz == self.opened.tick_hz
+            && bodies.clone().all(|(own, opened)| own.values == opened.values)
+    }
+
+    /// Whether both settings have the same length, parameters and methods.
+    pub(crate) fn has_same_values(&self, other: &Self) -> bool {
+        let bodies = self.scene.bodies.iter().zip(&other.scene.bodies);
+        self.scene.seconds == other.scene.seconds
+            && bodies.clone().all(|(own, other)| own.values == other.values)
+            && self.list == other.list
+    }
+
     /// Sets the scene's length (s), if the length is in the allowed range. Returns whether the length changed.
     pub(crate) fn set_seconds(&mut self, seconds: f64) -> bool {
         let changes =
@@ -138,12 +153,15 @@ impl StartSettings {
             }
             _ => {}
         }
-        if done.switch.is_some() {
-            self.list = menu.specs().to_vec();
-            if race.mode() == Mode::Race {
-                let entries = entries(race, menu);
-                self.lanes.iter_mut().zip(entries).for_each(|(lane, entry)| *lane = entry);
-            }
+        let Some(Switch { index, spec, .. }) = done.switch else { return };
+        self.list = menu.specs().to_vec();
+        if race.mode() == Mode::Race
+            && let Some(lane) = self.lanes.get_mut(index)
+            && self.list[*lane] != spec
+        {
+            let known = self.list.iter().position(|listed| *listed == spec);
+            *lane = known.unwrap_or(self.list.len());
+            self.list.extend(known.is_none().then_some(spec));
         }
     }
 }

@@ -76,8 +76,12 @@ impl UndoStack {
 
     /// Whether an action would join the newest change, and that change already holds its future.
     pub(super) fn has_future(&self) -> bool {
-        let newest = self.done.last().filter(|_| self.is_open);
-        newest.is_some_and(|change| matches!(change.replaced, Replaced::Future(_)))
+        self.open().is_some_and(|change| matches!(change.replaced, Replaced::Future(_)))
+    }
+
+    /// Returns the newest change, if the next edit joins it.
+    pub(super) fn open(&self) -> Option<&Change> {
+        self.done.last().filter(|_| self.is_open)
     }
 
     /// Whether an edit of the next start would join the newest change.

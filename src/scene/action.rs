@@ -167,6 +167,22 @@ impl Action {
             }
         }
     }
+
+    /// Whether both actions set the same quantity. In one drag, the later of them then replaces the earlier one.
+    pub(crate) fn sets_same(&self, other: &Self) -> bool {
+        match (self, other) {
+            (Action::Place { body, .. }, Action::Place { body: other, .. }) => body == other,
+            (Action::Lane { lane, .. }, Action::Lane { lane: other, .. })
+            | (Action::Substeps { lane, .. }, Action::Substeps { lane: other, .. })
+            | (Action::Tolerance { lane, .. }, Action::Tolerance { lane: other, .. }) => {
+                lane == other
+            }
+            _ => {
+                let control = self.control().filter(|control| *control != Control::Method);
+                control.is_some() && control == other.control()
+            }
+        }
+    }
 }
 
 /// A value that scripts and people can set. Once a person has set it, the script leaves it alone.

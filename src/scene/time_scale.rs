@@ -93,6 +93,19 @@ impl TimeScale {
         self.pieces[next - 1].t(tick)
     }
 
+    /// Returns the first tick from which the two scales have different rates, and both rates.
+    pub(crate) fn first_other_rate(&self, other: &Self) -> Option<(u64, [TickRate; 2])> {
+        let pieces = self.pieces.iter().chain(&other.pieces);
+        let rates = |tick: u64| [self, other].map(|scale| scale.rate_at(tick));
+        let differ = pieces.map(|piece| (piece.tick, rates(piece.tick)));
+        differ.filter(|(_, [own, other])| own != other).min_by_key(|(tick, _)| *tick)
+    }
+
+    fn rate_at(&self, tick: u64) -> TickRate {
+        let next = self.pieces.partition_point(|piece| piece.tick <= tick).max(1);
+        self.pieces[next - 1].tick_hz
+    }
+
     /// Returns a tick and its time, for people: `tick 30 (0.500 s)`.
     pub fn moment(&self, tick: u64) -> String {
         format!("tick {tick} ({:.3} s)", self.t(tick))

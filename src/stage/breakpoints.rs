@@ -22,6 +22,8 @@ pub(super) const PATH: f32 = 90.0;
 pub(super) const SCALE_BAR: f32 = 64.0;
 pub(super) const LINE_OF_WORDS: f32 = 46.0;
 
+/// Width and height of a stage with the sign of a pause.
+pub(super) const PAUSE: [f32; 2] = [160.0, 110.0];
 /// Width and height of a cell.
 pub(super) const CAPTION: [f32; 2] = [70.0, 30.0];
 /// Length of a hull that shows a deck and a house, and of one that shows planks.

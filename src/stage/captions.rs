@@ -8,16 +8,17 @@ use super::{Align, Label, Picture, Rect, breakpoints};
 use crate::look::Look;
 use crate::look::palette::{Palette, Rgba, STALE, fade};
 use crate::measure::{Outcome, Severity};
+use crate::run::Checked;
 use crate::run::race::{Entrant, Halt, LaneBody};
 use crate::scene::Mark;
-use crate::sim::number::{round, significant};
+use crate::sim::number::significant;
 use crate::studio::Studio;
-use crate::studio::{shown_state, shown_truth, slowed_in_words};
+use crate::studio::{pace_in_words, shown_state, shown_truth};
 
-/// Room of a scale bar at the right of a cell, in points.
-const BAR_MARGIN: f32 = 130.0;
 /// Height of a chip, in points.
 const CHIP: f32 = 27.0;
+/// Distance (points) between the two lines beside a lane.
+const LINE: f32 = 16.0;
 /// Upper bounds of the mean letter width (points): in a body's name, in a verdict, and in other words at a cell's
 /// head.
 const NAME_LETTER: f32 = 8.5;
@@ -32,8 +33,14 @@ const MAX_FOR_LANES: f32 = 0.28;
 const LANE_INSET: f32 = 8.0;
 /// Room (points) of a ghost's name besides its letters.
 const BESIDE_NAME: f32 = 18.0;
+/// Distance (points) between the verdicts of two lanes.
+const BETWEEN_LANES: f32 = 14.0;
+/// Side of the sign of a pause, in points.
+const PAUSE: f32 = 34.0;
 /// Height (points) of an answer's lines above the foot of a cell, clear of the halts there.
 const ANSWER: [f32; 2] = [60.0, 44.0];
+/// Height (points) of a failed check above the foot of a cell, over the lines of an answer.
+const FAILED: f32 = 78.0;
 /// Distance (points) of captions from the left edge of a wide cell.
 const WIDE_INSET: f32 = 62.0;
 
@@ -95,10 +102,18 @@ pub(super) fn lane(picture: &mut Picture, rect: Rect, moment: &DrawContext<'_>, 
         [body] => body.halted(),
         _ => None,
     };
-    let y = if alone.is_some() { middle - 8.0 } else { middle };
-    write(y, colour, name);
+    let verdict = studio.viewer.verdict_from_here(&studio.deck, entry);
+    let verdict = verdict.and_then(|verdict| Chip::of(moment, verdict.body, entrant));
+    let verdict = verdict.filter(|_| rect.max[1] - rect.min[1] >= 2.0 * LINE);
+    let is_under = alone.is_some() || verdict.is_some();
+    write(if is_under { middle - LINE / 2.0 } else { middle }, colour, name);
     if let Some(halt) = alone {
-        write(middle + 8.0, moment.palette.bad, fate_within(halt, right - left));
+        write(middle + LINE / 2.0, moment.palette.bad, fate_within(halt, right - left));
+    } else if let Some(Chip { sign, colours, verdict, brief }) = verdict {
+        let mut wordings = [Some(verdict), brief].into_iter().flatten();
+        let words = wordings.find(|words| words.chars().count() + 2 <= letters);
+        let words = words.map_or(sign.to_owned(), |words| format!("{sign} {words}"));
+        write(middle + LINE / 2.0, colours[0], words);
     }
 }
 
@@ -140,7 +155,13 @@ pub(super) fn halts<'h>(
     let of_bodies = of_bodies.map(|words| (words, palette.bad));
     for ((words, colour), y) in of_bodies.into_iter().chain(of_truth).zip([12.0, 27.0]) {
         let at = [rect.min[0] + 9.0 + inset(rect), rect.max[1] - y];
-        picture.labels.push(text(palette, at, Align::Left, 11.0, colour, words));
+        let label = text(palette, at, Align::Left, 11.0, colour, words);
+        let [left, right] = span(&label);
+        // A net may hang down to here.
+        let (min, max) = ([left - 4.0, at[1] - 7.5], [right + 4.0, at[1] + 7.5]);
+        let below = [min, [max[0], min[1]], max, [min[0], max[1]]];
+        picture.pen(rect).fill(&below, fade(palette.sea[1], 0.85));
+        picture.labels.push(label);
     }
 }
 
@@ -182,6 +203,10 @@ pub(super) fn head(
     entrant: &Entrant,
 ) {
     let Some([x, y]) = caption_place(rect) else { return };
+    // In a low cell, the words would lie over the body.
+    if rect.max[1] - rect.min[1] < breakpoints::SCALE_BAR {
+        return;
+    }
     let body = &entrant.lane.bodies()[index];
     let name = moment.studio.scene().bodies[index].name.chars().count();
     let left = x + NAME_LETTER * name as f32 + 14.0;
@@ -190,7 +215,8 @@ pub(super) fn head(
     let chip =
         Chip::of(moment, index, entrant).filter(|_| rect.max[1] - rect.min[1] >= breakpoints::CHIP);
     let room_for = |from: f32| rect.max[0] - 10.0 - from;
-    let beside_both = chip.as_ref().and_then(|chip| chip.longest_within(room_for(right)));
+    let beside_both = chip.as_ref().filter(|chip| chip.width() <= room_for(right));
+    let beside_both = beside_both.and_then(|chip| chip.longest_within(room_for(right)));
     let alone = chip.as_ref().and_then(|chip| chip.longest_within(room_for(left)));
     // The chip of a halted body already reports the halt.
     if right <= rect.max[0] && (beside_both.is_some() && body.halted().is_none() || alone.is_none())
@@ -200,6 +226,55 @@ pub(super) fn head(
     }
     if let Some(chip) = beside_both.or(alone) {
         chip.draw(picture, rect, moment.palette);
+    }
+}
+
+/// Writes the verdicts of a race at the head of a cell: that on the lane in front as a chip, and before it the sign and
+/// the number of each other lane, with its words if there is room for all.
+pub(super) fn verdicts(
+    picture: &mut Picture,
+    rect: Rect,
+    moment: &DrawContext<'_>,
+    index: usize,
+    (entrants, front): (&[&Entrant], &Entrant),
+) {
+    if rect.max[1] - rect.min[1] < breakpoints::CHIP || caption_place(rect).is_none() {
+        return;
+    }
+    let left = name_room(rect, moment, index).map_or(rect.min[0] + 10.0, |name| name.max[0] + 10.0);
+    let (mut right, y) = (rect.max[0] - 10.0, rect.min[1] + 4.0 + CHIP / 2.0);
+    let chip = Chip::of(moment, index, front).and_then(|chip| chip.longest_within(right - left));
+    if let Some(chip) = chip {
+        right -= chip.width() + 12.0;
+        chip.draw(picture, rect, moment.palette);
+    }
+    let others = entrants.iter().filter(|lane| lane.id != front.id);
+    let others = others
+        .filter_map(|lane| Some((moment.studio.entry(lane) + 1, Chip::of(moment, index, lane)?)));
+    let others: Vec<(usize, Chip)> = others.collect();
+    let all = |words: fn(&Chip) -> &str| {
+        let one = |(number, chip): &(usize, Chip)| {
+            let words = words(chip);
+            let space = if words.is_empty() { "" } else { " " };
+            format!("{number} {}{space}{words}", chip.sign)
+        };
+        others.iter().map(one).collect::<Vec<_>>()
+    };
+    let widths = |all: &[String]| -> Vec<f32> {
+        all.iter().map(|words| LETTER * words.chars().count() as f32 + BETWEEN_LANES).collect()
+    };
+    let wordings: [fn(&Chip) -> &str; 3] =
+        [|chip| &chip.verdict, |chip| chip.brief.as_ref().unwrap_or(&chip.verdict), |_| ""];
+    let fits = |all: &Vec<String>| widths(all).iter().sum::<f32>() <= right - left;
+    let all = wordings.into_iter().map(all).find(fits).unwrap_or_else(|| all(wordings[2]));
+    for (((_, chip), words), width) in others.iter().zip(&all).zip(widths(&all)).rev() {
+        if right - width < left {
+            return;
+        }
+        right -= width;
+        let at = [right, y];
+        let colour = chip.colours[0];
+        picture.labels.push(text(moment.palette, at, Align::Left, 12.5, colour, words.clone()));
     }
 }
 
@@ -223,8 +298,10 @@ fn beside_name(moment: &DrawContext<'_>, index: usize, body: &LaneBody) -> (Stri
             let truth = &studio.race().truth().bodies()[index];
             let (q, v) = shown_truth(&studio.deck, &studio.viewer, index);
             let motion = Look::of(truth).describe_motion(&q, &v);
-            let slowed = slowed_in_words(&studio.deck, &studio.viewer).filter(|_| index == 0);
-            motion.into_iter().chain(slowed).collect::<Vec<_>>().join(" · ")
+            // The bar above the instruments says it too.
+            let is_told = index == 0 && !studio.display().measure;
+            let pace = pace_in_words(&studio.deck, &studio.viewer).filter(|_| is_told);
+            motion.into_iter().chain(pace).collect::<Vec<_>>().join(" · ")
         }
     };
     (words, palette.dim)
@@ -249,7 +326,7 @@ pub(super) fn speed(
     });
     let Some(bow) = bow else { return };
     let [x, y] = camera.points(outline.at + bow);
-    let words = format!("{} {}/s", significant(v[0], 2), camera.unit);
+    let words = format!("{} {}/s", significant(v[0], 3), camera.unit);
     let (at, palette) = ([x + 14.0, y - 12.0], moment.palette);
     let label = text(palette, at, Align::Left, 14.0, palette.text, words);
     let [left, right] = span(&label);
@@ -274,9 +351,49 @@ fn span(label: &Label) -> [f32; 2] {
     [left, left + width]
 }
 
+/// Marks a paused stage by two bars above its scale bar.
+pub(super) fn pause(picture: &mut Picture, studio: &Studio, stage: Rect) {
+    let is_paused = match studio.loop_lab() {
+        Some(_) => !studio.running(),
+        None => !studio.deck.runs_or_rests(studio.display().motion),
+    };
+    let [width, height] = stage.size();
+    if !is_paused || width < breakpoints::PAUSE[0].into() || height < breakpoints::PAUSE[1].into() {
+        return;
+    }
+    let palette = studio.display().theme.palette();
+    let [right, bottom] = [stage.max[0] - 12.0, stage.max[1] - 36.0];
+    let sign = Rect { min: [right - PAUSE, bottom - PAUSE], max: [right, bottom] };
+    plate(picture, sign, fade(palette.text, 0.5), stage, palette);
+    let middle = right - PAUSE / 2.0;
+    for x in [middle - 8.0, middle + 2.5] {
+        let bar = rounded([x, sign.min[1] + 9.0], [x + 5.5, sign.max[1] - 9.0], 1.5);
+        picture.pen(stage).fill(&bar, palette.text);
+    }
+}
+
+/// Describes the futures at the foot of the cell, under their threads.
+pub(super) fn futures(picture: &mut Picture, rect: Rect, studio: &Studio, palette: &Palette) {
+    let Some([left, _]) = caption_place(rect) else { return };
+    let of = if studio.deck.offered() > 1 { " under each method" } else { "" };
+    let words = format!("the next second{of}, a dot a tick");
+    let width = LETTER * words.chars().count() as f32;
+    let middle = (rect.min[0] + rect.max[0]) / 2.0;
+    if width <= rect.max[0] - left {
+        let at = [middle.max(left + width / 2.0), rect.max[1] - 10.0];
+        picture.labels.push(text(palette, at, Align::Centre, 12.5, palette.text, words));
+    }
+}
+
 fn caption_place(rect: Rect) -> Option<[f32; 2]> {
     let fits = (0..2).all(|axis| rect.max[axis] - rect.min[axis] >= breakpoints::CAPTION[axis]);
     fits.then_some([rect.min[0] + 9.0 + inset(rect), rect.min[1] + 13.0])
+}
+
+/// Height below which marks keep clear of the words at the head of a cell.
+pub(super) fn foot_of_head(rect: Rect) -> f32 {
+    let head = caption_place(rect).map_or(4.0, |_| CHIP);
+    rect.min[1] + head
 }
 
 /// The verdict on the method, on one line.
@@ -290,34 +407,29 @@ struct Chip {
 }
 
 impl Chip {
-    /// The chip of a body whose method is inaccurate.
+    /// The chip of a body under a lane's method, if its verdict is known.
     fn of(moment: &DrawContext<'_>, index: usize, entrant: &Entrant) -> Option<Self> {
-        let entry = moment.studio.entry(entrant);
-        let verdict = moment.studio.viewer.verdict(entry)?;
-        let palette = moment.palette;
+        let studio = moment.studio;
+        let entry = studio.entry(entrant);
         let halt = entrant.lane.bodies()[index].halted();
+        let verdict = studio.viewer.verdict_from_here(&studio.deck, entry)?;
         let outcome = halt.map_or(verdict.outcome(), Outcome::of_halt);
         let severity = outcome.severity();
-        if verdict.body != index || matches!(severity, Severity::Fine | Severity::Unknown) {
+        if verdict.body != index || severity == Severity::Unknown {
             return None;
         }
-        // The run on the screen differs from the judged one.
-        let is_other = moment.studio.deck.is_judged_apart();
-        let viewer = &moment.studio.viewer;
-        let is_current = viewer.is_judged_at(entry, moment.studio.clock().tick_hz());
-        let tone = palette.of_severity(severity);
+        let is_current = studio.viewer.is_judged_now(&studio.deck, entry);
+        let tone = moment.palette.of_severity(severity);
+        let mut wordings = verdict.wordings(false).into_iter();
+        let words = halt.map(Halt::fate).or_else(|| wordings.next())?;
         Some(Self {
             sign: outcome.sign().glyph(),
             colours: [
                 if is_current || halt.is_some() { tone } else { fade(tone, STALE) },
                 moment.style(entry).0,
             ],
-            verdict: match halt {
-                Some(halt) => halt.fate(),
-                None if is_other => verdict.wordings_of_another_run(false)[0].clone(),
-                None => verdict.wordings(false)[0].clone(),
-            },
-            brief: verdict.fails_in_brief().filter(|_| is_other && halt.is_none()),
+            verdict: words,
+            brief: halt.map(|halt| halt.ending().into()).or_else(|| wordings.next()),
         })
     }
 
@@ -362,7 +474,21 @@ pub(super) fn write_comparison(
     }
 }
 
-/// Names a ghost in its colour, `beside` points from its middle: below it at a free side, or else above it.
+/// Reports that the run differs from its recording.
+pub(super) fn write_failed_check(
+    picture: &mut Picture,
+    rect: Rect,
+    Checked { tick, lane, .. }: Checked,
+    palette: &Palette,
+) {
+    let Some([x, _]) = caption_place(rect) else { return };
+    let words = format!("not the same run: tick {tick}, lane {lane}");
+    let at = [x, rect.max[1] - FAILED];
+    picture.labels.push(text(palette, at, Align::Left, 13.5, palette.bad, words));
+}
+
+/// Names a ghost in its colour, `beside` points from its middle: below it at a free side, or else above it. On a chart
+/// recorder, trails hang below it, so that above comes first.
 pub(super) fn ghost_name(
     picture: &mut Picture,
     camera: &Camera,
@@ -380,9 +506,15 @@ pub(super) fn ghost_name(
     if x + beside + width > max[0] {
         sides.reverse();
     }
-    let [below, above] = [(y + beside + 6.0).min(max[1] - 8.0), y - beside - 6.0];
+    let is_recorded = camera.quay_m != 0.0;
+    let up = if is_recorded { 0.7 * beside + 8.0 } else { beside + 6.0 };
+    let [below, above] = [(y + beside + 6.0).min(max[1] - 8.0), y - up];
     let is_above_free = above > min[1] + CHIP;
-    for ((way, align), at_y) in [(sides[0], below), (sides[0], above), (sides[1], below)] {
+    let mut places = [(sides[0], below), (sides[0], above), (sides[1], below)];
+    if is_recorded {
+        places.swap(0, 1);
+    }
+    for ((way, align), at_y) in places {
         let at = [x + way * (beside + 8.0), at_y];
         let label = text(palette, at, align, 12.0, colour, name.to_owned());
         let [left, right] = span(&label);
@@ -401,43 +533,6 @@ pub(super) fn ghost_name(
     }
 }
 
-/// Draws the course line of a ship `beam` points wide, with distance marks whose numbers keep clear of the ship.
-pub(super) fn course(picture: &mut Picture, camera: &Camera, beam: f32, palette: &Palette) {
-    let Rect { min, max } = camera.rect;
-    let y = camera.points(DVec2::new(0.0, camera.centre_m.y))[1];
-    let chart = fade(palette.chart, 0.45);
-    picture.pen(camera.rect).dashed([[min[0], y], [max[0], y]], 1.0, chart, [8.0, 5.0]);
-    if max[0] - min[0] < breakpoints::MARKS || max[1] - min[1] < breakpoints::SCALE_BAR {
-        return;
-    }
-    let step_m = camera.round_length_m(96.0);
-    let named_m = camera.round_length_m(0.47 * f64::from(max[0] - min[0]));
-    let is_named = |x_m: f64| libm::fmod(x_m, named_m).abs() < step_m / 2.0;
-    let (left, right) = camera.span_m();
-    let first = libm::ceil(left / step_m);
-    for i in 0..=((right - left) / step_m) as usize {
-        let x_m = (first + i as f64) * step_m;
-        let [x, _] = camera.points(DVec2::new(x_m, 0.0));
-        if x > min[0] + 30.0 && x < max[0] - 30.0 {
-            let colour = palette.dim;
-            picture.pen(camera.rect).line([x, y - 5.0], [x, y + 5.0], 1.5, colour);
-            if !is_named(x_m) {
-                continue;
-            }
-            let unit = if x_m == 0.0 { " m" } else { "" };
-            let words = round(x_m, 6) + unit;
-            picture.labels.push(text(
-                palette,
-                [x, (y + (beam / 2.0 + 14.0).max(32.0)).min(max[1] - 9.0)],
-                Align::Centre,
-                12.0,
-                colour,
-                words,
-            ));
-        }
-    }
-}
-
 /// A plate for words with a rim of this colour.
 pub(super) fn plate(
     picture: &mut Picture,
@@ -452,100 +547,5 @@ pub(super) fn plate(
     pen.ring(&shape, 1.6, rim);
 }
 
-/// A line of this width from side to side, with a stroke across each end that extends `reach` points up and down.
-pub(super) fn span_line(
-    picture: &mut Picture,
-    ([left, right], y): ([f32; 2], f32),
-    (width, reach): (f32, f32),
-    colour: Rgba,
-    clip: Rect,
-) {
-    picture.pen(clip).line([left, y], [right, y], width, colour);
-    for x in [left, right] {
-        picture.pen(clip).line([x, y - reach], [x, y + reach], width, colour);
-    }
-}
-
-/// Draws a round number of metres to scale.
-pub(super) fn scale_bar(picture: &mut Picture, camera: &Camera, palette: &Palette) {
-    let Rect { min, max } = camera.rect;
-    if max[0] - min[0] < BAR_MARGIN || max[1] - min[1] < breakpoints::SCALE_BAR {
-        return;
-    }
-    let length_m = camera.round_length_m(40.0);
-    let (right, y, colour) = (max[0] - 10.0, max[1] - 8.0, palette.dim);
-    let left = right - camera.length(length_m);
-    let at = [(left + right) / 2.0, y - 10.0];
-    // In a low cell, the badge of a body beyond the edge needs the room.
-    let is_taken =
-        |label: &Label| (label.at[1] - at[1]).abs() < 16.0 && (label.at[0] - at[0]).abs() < 60.0;
-    if picture.labels.iter().any(is_taken) {
-        return;
-    }
-    span_line(picture, ([left, right], y), (1.5, 3.0), colour, camera.rect);
-    let words = format!("{} {}", round(length_m, 4), camera.unit);
-    picture.labels.push(text(palette, at, Align::Centre, 11.0, colour, words));
-}
-
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::scene::Scene;
-    use crate::stage::compose;
-    use crate::studio::{HeldBody, RunCommand, StageCommand, ViewCommand};
-
-    /// The words beside the body's name. Asserts that they end before the chip.
-    fn beside_name_of(studio: &Studio, width: f32) -> Option<String> {
-        let picture = compose(studio, [width, 460.0]);
-        let chip = picture.labels.iter().find(|label| label.text == "▲").expect("a chip");
-        let name = picture.labels.iter().find(|label| label.text == "Spring").expect("a name");
-        let is_beside = |label: &&Label| label.size == 12.5 && label.at[1] == name.at[1] + 0.5;
-        let beside = picture.labels.iter().find(is_beside)?;
-        let right = beside.at[0] + LETTER * beside.text.chars().count() as f32;
-        assert!(right < chip.at[0] - 11.0, "{} ends at {right} of {width}", beside.text);
-        Some(beside.text.clone())
-    }
-
-    #[test]
-    fn text_beside_a_name_ends_before_the_chip_even_while_a_body_is_held() {
-        let mut studio = Studio::new(Scene::built_in("spring").unwrap());
-        studio.analyse();
-        (0..60).for_each(|_| studio.tick());
-        let promise = Some("should keep to ±1 m".to_owned());
-        assert_eq!(beside_name_of(&studio, 780.0), promise);
-        assert_eq!(beside_name_of(&studio, 430.0), None, "no room for both");
-        let lane = studio.selected().id;
-        let mut in_narrow = 0;
-        for power in -20..30 {
-            let at = -1.2345 * libm::exp10(f64::from(power));
-            let (q, v, hand) = ([at].into(), [0.0].into(), DVec2::new(at, 0.0));
-            studio.apply(RunCommand::Hold(HeldBody { lane, body: 0, q, v, hand, handle: hand }));
-            let words = beside_name_of(&studio, 780.0).expect("room for both");
-            assert!(words.starts_with("x = −") && words.ends_with(" m"), "{power}: {words}");
-            in_narrow += usize::from(beside_name_of(&studio, 480.0).is_some());
-        }
-        assert!((1..49).contains(&in_narrow), "{in_narrow}");
-        studio.apply(ViewCommand::LetGo);
-        assert_eq!(beside_name_of(&studio, 780.0), promise);
-    }
-
-    #[test]
-    fn the_chip_of_an_edited_run_marks_the_verdict_as_another_runs() {
-        let words = |studio: &Studio, size| -> Vec<String> {
-            let labels = compose(studio, size).labels.into_iter().map(|label| label.text);
-            labels.filter(|text| text.contains("blow")).collect()
-        };
-        for (ticks, wide, narrow) in [
-            (0, "blows up · at 4.14 s", "blows up · at 4.14 s"),
-            (20, "if run from the start: blows up · at 4.14 s", "blows up, if run from the start"),
-        ] {
-            let mut studio = Studio::new(Scene::built_in("stiff").unwrap());
-            (0..ticks).for_each(|_| studio.tick());
-            studio.apply(StageCommand::TickHz(49.into()));
-            studio.analyse();
-            (0..20).for_each(|_| studio.tick());
-            assert_eq!(words(&studio, [960.0, 560.0]), [wide], "changed at {ticks}");
-            assert_eq!(words(&studio, [470.0, 330.0]), [narrow], "changed at {ticks}");
-        }
-    }
-}
+mod tests;

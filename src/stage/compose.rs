@@ -12,7 +12,7 @@ use super::moment::DrawContext;
 use super::sketch::{Camera, LaneStyle, SOLID};
 use super::{
     Cell, Picture, Rect, Whose, apex, breakpoints, captions, chart, futures, hull, loop_stage,
-    loupe, universe,
+    loupe, scale_marks, universe,
 };
 use crate::look::palette::{Rgba, fade};
 use crate::look::{Framing, Look};
@@ -63,6 +63,7 @@ pub fn compose(studio: &Studio, size: [f32; 2]) -> Picture {
             side_by_side(&mut picture, &moment, stage, &ghosts, &entrants);
         }
     }
+    captions::pause(&mut picture, studio, stage);
     picture
 }
 
@@ -75,8 +76,7 @@ fn overlay(
     entrants: &[&Entrant],
 ) {
     let front = moment.studio.selected();
-    let alone = (moment.studio.mode() == Mode::Solo).then_some(front);
-    let views = on_one_stage(moment, ghosts.iter().map(|ghost| ghost.view).collect(), alone);
+    let views = on_one_stage(moment, ghosts.iter().map(|ghost| ghost.view).collect(), front);
     // A ship on a straight course has its own marks.
     let has_ruler = stage.max[1] - stage.min[1] >= breakpoints::RULER
         && (!matches!(views[0].framing, Framing::Follow { .. }) || views[0].turns);
@@ -104,6 +104,8 @@ fn overlay(
         if moment.studio.mode() == Mode::Solo {
             captions::head(picture, *cell, moment, index, front);
             captions::speed(picture, &camera, moment, index, front);
+        } else {
+            captions::verdicts(picture, *cell, moment, index, (entrants, front));
         }
         let is_measured = match view.framing {
             Framing::Follow { .. } => !view.turns,
@@ -114,7 +116,7 @@ fn overlay(
             && (has_ruler
                 || !matches!(view.framing, Framing::Recorder { .. } | Framing::Fixed { .. })))
         {
-            captions::scale_bar(picture, &camera, moment.palette);
+            scale_marks::scale_bar(picture, &camera, moment.palette);
         }
     }
     if has_ruler {
@@ -135,7 +137,8 @@ fn side_by_side(
     let bodies = ghosts.len();
     let draw = |picture: &mut Picture, cell: Rect, index: usize, entrant: &&Entrant| {
         let ghost = &ghosts[index];
-        let view = &ghost.view;
+        let views = ghosts.iter().map(|ghost| ghost.view).collect();
+        let view = &on_one_stage(moment, views, entrant)[index];
         let camera = moment.camera(cell, index, view);
         let lanes = std::slice::from_ref(entrant);
         if view.recorded_m().is_some() {
@@ -143,8 +146,9 @@ fn side_by_side(
         }
         BodyCell { moment, index, ghost, view, camera, lanes, front: entrant }.draw(picture);
         frame(picture, cell, fade(moment.palette.chart, 0.3));
-        if entrant.id == entrants[entrants.len() - 1].id {
-            captions::scale_bar(picture, &camera, moment.palette);
+        let shared = moment.camera(cell, index, &ghost.view).points_per_metre;
+        if entrant.id == entrants[entrants.len() - 1].id || camera.points_per_metre != shared {
+            scale_marks::scale_bar(picture, &camera, moment.palette);
         }
     };
     if let Some(shape) = moment.shape(&ghosts[0].view) {
@@ -200,10 +204,11 @@ impl BodyCell<'_> {
         self.ground(picture, shows_ghost);
         let has_outgrown = self.has_outgrown();
         if has_outgrown {
-            universe::landmarks(picture, camera, palette);
+            universe::landmarks(picture, (camera, self.room()), moment, (index, self.front));
         }
         if self.shows_futures() && self.lanes.iter().any(|lane| lane.id == studio.selected().id) {
-            futures::draw(picture, moment, camera, framing, index);
+            futures::draw(picture, moment, (camera, self.room()), framing, index);
+            captions::futures(picture, camera.rect, studio, palette);
         }
 
         let behind = self.lanes.iter().filter(|lane| !self.is_front(lane));
@@ -340,7 +345,8 @@ impl BodyCell<'_> {
         if has_outgrown {
             let of_lane = (index, self.front);
             let swing_m = ghost.swing_m.unwrap_or(ghost.view.reach_m.x);
-            universe::write_distance(picture, camera, moment, (view, swing_m), of_lane);
+            let on = (camera, self.room());
+            universe::write_distance(picture, on, moment, (view, swing_m), of_lane);
         }
         picture.cells.push(cell);
     }
@@ -390,12 +396,17 @@ impl BodyCell<'_> {
                     _ => None,
                 });
                 let beam = hull::BEAM * camera.length(hull_m.unwrap_or_default());
-                captions::course(picture, camera, beam, moment.palette);
+                scale_marks::course(picture, camera, beam, moment.palette);
             }
             Framing::Recorder { .. } => {
                 chart::mooring(picture, camera, moment.palette);
                 if let Some(swing_m) = ghost.swing_m {
-                    envelope(picture, camera, swing_m, fade(moment.palette.exact, 0.6));
+                    let bottom = match self.has_outgrown() {
+                        true => camera.at[1] + camera.paper as f32,
+                        false => camera.rect.max[1] - 4.0,
+                    };
+                    let ends = [captions::foot_of_head(camera.rect), bottom];
+                    envelope(picture, camera, (swing_m, ends), fade(moment.palette.exact, 0.6));
                 }
             }
             Framing::Follow { .. } | Framing::Fixed { .. } => {}
@@ -420,14 +431,19 @@ impl BodyCell<'_> {
     fn draw_compared(&self, picture: &mut Picture, lift: f32) {
         let Self { moment, index, ref camera, front, .. } = *self;
         let (deck, palette) = (&moment.studio.deck, moment.palette);
+        if index == 0
+            && front.id == deck.selected().id
+            && let Some(failed) = deck.run().first_failed_check()
+        {
+            captions::write_failed_check(picture, camera.rect, failed, palette);
+        }
         let Some(compared) = deck.compared().filter(|_| front.id == deck.selected().id) else {
             return;
         };
         if index == 0 {
             captions::write_comparison(picture, camera.rect, compared.lines(), palette);
         }
-        let Some(body) = compared.body(deck.scene(), &front.spec, index) else { return };
-        let (q, _) = shown_state(deck, &moment.studio.viewer, body);
+        let Some((body, q)) = compared.body(deck.scene(), &front.spec, index) else { return };
         let outline = Look::of(body).outline(moment.t, &q);
         let style = LaneStyle { colour: palette.accent, dash: SOLID, fill: 0.0 };
         OutlineView { outline: &outline, camera, palette }.draw_behind(picture, style);
@@ -494,9 +510,13 @@ fn trail_s(framing: Framing, moment: &DrawContext<'_>) -> Option<f64> {
     }
 }
 
-/// Draws dotted lines at the largest swing of the truth. A mass beyond them has gained energy.
-fn envelope(picture: &mut Picture, camera: &Camera, swing_m: f64, colour: Rgba) {
-    let (top, bottom) = (camera.rect.min[1] + 4.0, camera.rect.max[1] - 4.0);
+/// Draws dotted lines between two heights at the largest swing of the truth. A mass beyond them has gained energy.
+fn envelope(
+    picture: &mut Picture,
+    camera: &Camera,
+    (swing_m, [top, bottom]): (f64, [f32; 2]),
+    colour: Rgba,
+) {
     for x in [-swing_m, swing_m] {
         let [x, _] = camera.points(DVec2::new(x, 0.0));
         picture.pen(camera.rect).dashed([[x, top], [x, bottom.max(top)]], 1.3, colour, [2.5, 4.0]);

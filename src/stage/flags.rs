@@ -88,7 +88,7 @@ pub(super) fn flags(
             }
         }
     }
-    space_out(&mut places, &widths, right);
+    space_out(&mut places, &widths, [room.min[0], room.max[0]]);
     for ((flags, [x, y]), width) in shared.iter().zip(places).zip(widths) {
         let colour = if flags.len() == 1 { flags[0].colour } else { palette.dim };
         let foot = [flags[0].at[0], flags[0].at[1] - lift + 6.0];
@@ -123,14 +123,15 @@ fn push_apart(
     }
 }
 
-/// Resolves the remaining overlaps. From left to right, each flag starts after its predecessor in the row. Then from
-/// right to left, none crosses the edge.
-fn space_out(places: &mut [[f32; 2]], widths: &[f32], right: f32) {
+/// Resolves the remaining overlaps without a change of the order. From left to right, each flag starts after the left
+/// edge and after its predecessor in the row. Then from right to left, none crosses the right edge.
+pub(super) fn space_out(places: &mut [[f32; 2]], widths: &[f32], [left, right]: [f32; 2]) {
     let mut order: Vec<usize> = (0..places.len()).collect();
     order.sort_by(|a, b| places[*a][0].total_cmp(&places[*b][0]));
     let apart = |a: usize, b: usize| (widths[a] + widths[b]) / 2.0 + GAP;
     let in_a_row = |a: [f32; 2], b: [f32; 2]| (a[1] - b[1]).abs() < FLAG + GAP;
     for (i, &flag) in order.iter().enumerate() {
+        places[flag][0] = places[flag][0].max(left + widths[flag] / 2.0);
         for &before in &order[..i] {
             if in_a_row(places[before], places[flag]) {
                 places[flag][0] = places[flag][0].max(places[before][0] + apart(before, flag));
@@ -138,7 +139,7 @@ fn space_out(places: &mut [[f32; 2]], widths: &[f32], right: f32) {
         }
     }
     for (i, &flag) in order.iter().enumerate().rev() {
-        places[flag][0] = places[flag][0].min(right);
+        places[flag][0] = places[flag][0].min(right - widths[flag] / 2.0);
         for &after in &order[i + 1..] {
             if in_a_row(places[after], places[flag]) {
                 places[flag][0] = places[flag][0].min(places[after][0] - apart(flag, after));
@@ -396,6 +397,8 @@ mod tests {
     fn badges_never_cover_springs_and_flags_never_cover_names() {
         let mut studio = Studio::new(Scene::with_two_springs());
         studio.apply(StageCommand::ToggleRace);
+        // The stage follows the selected lane, so that the badges are of the others.
+        studio.apply(StageCommand::Pick(1));
         let (mut badges, mut beside) = (0, 0);
         for _ in 0..300 {
             studio.tick();

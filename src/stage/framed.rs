@@ -1,4 +1,4 @@
-//! The view of a body's world: room for the true motion, and in solo mode for the lane's.
+//! The view of a body's world: room for the true motion, and for that of the lane in front.
 
 use glam::DVec2;
 
@@ -6,9 +6,9 @@ use super::Rect;
 use super::moment::{DrawContext, has_several_coordinates};
 use super::outgrown::{Room, in_steps, strayed_m};
 use super::sketch::Camera;
-use crate::look::{Framing, drawn_unit};
+use crate::look::{Framing, Look, drawn_unit};
 use crate::run::race::Entrant;
-use crate::studio::Motion;
+use crate::studio::{Motion, ZoomPan, shown_state};
 
 /// Height (points) at the head of a cell that a fixed camera leaves to the caption.
 const HEAD: f64 = 36.0;
@@ -20,7 +20,7 @@ const MAX_QUAY: f32 = 56.0;
 const BLOCK: f32 = 0.31;
 const BLOCKS: (f32, f32) = (12.0, 88.0);
 const MAX_BLOCK: f32 = 0.65;
-/// In solo mode, the largest motion of a lane that the camera still shows, relative to the true one. The first
+/// The largest motion of a lane that the camera still shows, relative to the true one. The first
 /// applies along a chart recorder, the second to bodies that move across and up.
 const MAX_SWING: f64 = 2.3;
 const MAX_ROOM: f64 = 5.0;
@@ -44,12 +44,12 @@ pub(super) struct BodyView {
     pub(super) grown: f64,
 }
 
-/// The views of a scene's bodies that share a stage. A lane alone on it gets enough room. Chart recorders share one
+/// The views of a scene's bodies that share a stage. The lane in front gets enough room. Chart recorders share one
 /// quay and one zoom; those of similar scales share one scale.
 pub(super) fn on_one_stage(
     moment: &DrawContext<'_>,
     mut views: Vec<BodyView>,
-    alone: Option<&Entrant>,
+    front: &Entrant,
 ) -> Vec<BodyView> {
     let first = views.iter().position(|view| view.recorded_m().is_some());
     let recorded = |view: &BodyView| view.recorded_m().unwrap_or_default();
@@ -58,9 +58,7 @@ pub(super) fn on_one_stage(
     share(&mut views, &is_alike);
     let before: Vec<f64> = views.iter().map(BodyView::half_m).collect();
     for (index, view) in views.iter_mut().enumerate() {
-        if let Some(lane) = alone {
-            *view = view.widened(moment, lane, index);
-        }
+        *view = view.widened(moment, front, index);
     }
     share(&mut views, &is_alike);
     for (view, before_m) in views.iter_mut().zip(before) {
@@ -103,7 +101,7 @@ impl BodyView {
         }
     }
 
-    /// Makes room for the lane alone on the stage: up to some times the true motion, or without limit for a person
+    /// Makes room for the lane in front: up to some times the true motion, or without limit for a person
     /// who watches.
     fn widened(mut self, moment: &DrawContext<'_>, lane: &Entrant, body: usize) -> Self {
         if moment.studio.display().motion != Motion::Recorded {
@@ -168,7 +166,17 @@ impl DrawContext<'_> {
     pub(super) fn camera(&self, rect: Rect, index: usize, view: &BodyView) -> Camera {
         let unit = drawn_unit(&self.studio.race().truth().bodies()[index].kind);
         let camera = Camera { unit, ..self.fitted(rect, view) }.grown(view.grown);
-        camera.zoomed(self.studio.view().zoom_pan(view.zoomed_as))
+        let zoom_pan = self.studio.view().zoom_pan(view.zoomed_as);
+        if zoom_pan == ZoomPan::default() {
+            return camera;
+        }
+        // Bodies on one ruler move together across.
+        let [across, own] = [view.zoomed_as, index].map(|body| {
+            let body = &self.studio.selected().lane.bodies()[body];
+            let (q, _) = shown_state(&self.studio.deck, &self.studio.viewer, body);
+            rect.part(camera.points(Look::of(body).outline(self.t, &q).at))
+        });
+        camera.zoomed(zoom_pan.keeping([across[0], own[1]]))
     }
 
     fn fitted(&self, rect: Rect, view: &BodyView) -> Camera {
@@ -235,12 +243,13 @@ mod tests {
     use crate::studio::{StageCommand, Studio, ViewCommand};
 
     #[test]
-    fn the_view_follows_a_stray_orbit_in_solo() {
-        for (is_race, is_seen) in [(false, true), (true, false)] {
+    fn the_view_follows_the_stray_orbit_of_the_selected_lane() {
+        for (is_race, selected, is_seen) in [(false, 0, true), (true, 0, true), (true, 1, false)] {
             let mut studio = Studio::new(Scene::built_in("orbit").unwrap());
             studio.apply(StageCommand::Pick(0));
             if is_race {
                 studio.apply(StageCommand::ToggleRace);
+                studio.apply(StageCommand::Pick(selected));
             }
             (0..9 * studio.race().tick_hz().hz() as u32).for_each(|_| studio.tick());
             let picture = compose(&studio, [800.0, 440.0]);

@@ -7,10 +7,13 @@ use super::sketch::Camera;
 use crate::look::{Look, Pull};
 use crate::run::MenuIndex;
 use crate::scene::LaneId;
-use crate::studio::{HeldBody, PulledBody, Studio};
+use crate::studio::{HeldBody, PulledBody, Studio, ZoomPan};
 
 /// Least radius (points) of a handle: as close as people aim.
 const MIN_RADIUS: f32 = 14.0;
+
+/// By how much a handle of a moving body is larger, in points.
+const MOVING: f32 = 16.0;
 
 /// One body's cell of one lane.
 #[derive(Clone, Debug, PartialEq)]
@@ -60,31 +63,65 @@ pub enum Whose {
 impl Cell {
     /// The handles of the bodies in this cell.
     pub fn grips(&self, studio: &Studio) -> impl Iterator<Item = Grip> {
+        self.seen.iter().flat_map(move |(whose, q)| self.grips_of(studio, *whose, q))
+    }
+
+    fn grips_of(
+        &self,
+        studio: &Studio,
+        whose: Whose,
+        q: &[f64],
+    ) -> impl Iterator<Item = Grip> + use<> {
         let look = Look::of(&studio.race().truth().bodies()[self.body]);
         let is_recorder = self.camera.quay_m != 0.0;
         let least = if is_recorder { MIN_RADIUS.max(self.camera.block / 2.0) } else { MIN_RADIUS };
-        self.seen.iter().flat_map(move |(whose, q)| {
-            look.handles(q).into_iter().enumerate().map(move |(handle, part)| {
-                let radius = self.camera.size(part.radius).max(least);
-                Grip { at: self.camera.points(part.at), radius, handle, whose: *whose }
-            })
+        let camera = self.camera;
+        look.handles(q).into_iter().enumerate().map(move |(handle, part)| {
+            let radius = camera.size(part.radius).max(least);
+            Grip { at: camera.points(part.at), radius, handle, whose }
         })
     }
 
     /// The handle under a hand at this point of the stage: the nearest one that it touches. Another lane's body or a
     /// ghost counts only if the body of the cell's own lane is out of reach.
     pub fn grip_at(&self, studio: &Studio, at: [f32; 2]) -> Option<Grip> {
+        self.moving_grip_at(studio, &[], at)
+    }
+
+    /// The same while bodies move. `before` are the cells of earlier pictures, the newest first. A lane's handle that no
+    /// hand touches is larger, and counts where it was in those pictures and on its way between them.
+    pub fn moving_grip_at(&self, studio: &Studio, before: &[&Cell], at: [f32; 2]) -> Option<Grip> {
         if !self.rect.contains(at) {
             return None;
         }
-        let away = |grip: &Grip| libm::hypotf(grip.at[0] - at[0], grip.at[1] - at[1]);
-        let rank = |grip: &Grip| match grip.whose {
-            Whose::Lane { lane, .. } if lane == self.lane => 0,
-            Whose::Lane { .. } => 1,
-            Whose::Truth => 2,
-        };
-        let touched = self.grips(studio).filter(|grip| away(grip) <= grip.radius);
-        touched.min_by(|a, b| rank(a).cmp(&rank(b)).then(away(a).total_cmp(&away(b))))
+        let mut best: Option<((usize, usize, usize, f32), Grip)> = None;
+        for (whose, q) in &self.seen {
+            let is_ghost = *whose == Whose::Truth;
+            let rank = match whose {
+                Whose::Lane { lane, .. } if *lane == self.lane => 0,
+                Whose::Lane { .. } => 1,
+                Whose::Truth => 2,
+            };
+            let now: Vec<Grip> = self.grips_of(studio, *whose, q).collect();
+            let mut later = now.clone();
+            let ages = before.iter().take(if is_ghost { 0 } else { before.len() });
+            for (age, cell) in std::iter::once(&self).chain(ages).enumerate() {
+                let Some((_, q)) = cell.seen.iter().find(|(of, _)| of == whose) else { break };
+                let then: Vec<Grip> = cell.grips_of(studio, *whose, q).collect();
+                for ((grip, after), now) in then.iter().zip(&later).zip(&now) {
+                    let away = distance(at, [grip.at, after.at]);
+                    let is_touched = age == 0 && away <= grip.radius;
+                    let is_near = !is_ghost && !before.is_empty() && away <= grip.radius + MOVING;
+                    let tier = if is_ghost { 2 } else { usize::from(!is_touched) };
+                    let order = (tier, rank, age, away);
+                    if (is_touched || is_near) && best.is_none_or(|(least, _)| order < least) {
+                        best = Some((order, *now));
+                    }
+                }
+                later = then;
+            }
+        }
+        best.map(|(_, grip)| grip)
     }
 
     /// The place (m) in the body's world of a point on the stage.
@@ -92,10 +129,24 @@ impl Cell {
         self.camera.metres(at)
     }
 
+    /// The zoom and the pan of the cell as drawn, which keep the body in view.
+    pub fn zoom_pan(&self) -> ZoomPan {
+        self.camera.zoom_pan
+    }
+
     /// A point of the stage relative to the cell's middle: across and down, in widths and heights of the cell.
     pub fn part(&self, at: [f32; 2]) -> [f64; 2] {
         self.rect.part(at)
     }
+}
+
+/// Distance of a point from the straight line between two places.
+fn distance(at: [f32; 2], [from, to]: [[f32; 2]; 2]) -> f32 {
+    let ([dx, dy], [x, y]) =
+        ([to[0] - from[0], to[1] - from[1]], [at[0] - from[0], at[1] - from[1]]);
+    let square = dx * dx + dy * dy;
+    let part = if square > 0.0 { ((x * dx + y * dy) / square).clamp(0.0, 1.0) } else { 0.0 };
+    libm::hypotf(x - part * dx, y - part * dy)
 }
 
 /// A hand on a body.

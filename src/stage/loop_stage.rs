@@ -11,7 +11,7 @@ use crate::look::{Framing, Look};
 use crate::loops::loop_lab::{LoopFrame, LoopLab, LoopLane};
 use crate::scene::Outline;
 use crate::sim::number::round;
-use crate::studio::Studio;
+use crate::studio::{Studio, digit_of};
 
 /// Number of earlier frames shown.
 const FRAMES_BEFORE: usize = 14;
@@ -52,6 +52,7 @@ pub(super) fn compose(studio: &Studio, loops: &LoopLab, size: [f32; 2]) -> Pictu
         let strip = Rect { min: stage.min, max: [size[0], top] };
         chart::ruler(&mut picture, strip, &camera, palette);
     }
+    captions::pause(&mut picture, studio, stage);
     picture
 }
 
@@ -118,7 +119,7 @@ fn overlay(
         let Some(band) = bands.iter().find(|band| band.place == place) else { continue };
         let Some(frame) = band.frames().and_then(<[LoopFrame]>::last) else { continue };
         let at = camera.points(band.shown_outline(frame).at);
-        let number = band.label([at[0], above], Align::Centre, 12.5, (place + 1).to_string());
+        let number = band.label([at[0], above], Align::Centre, 12.5, digit_of(place).to_string());
         if above > ground.min[1] + 0.5 * LINE {
             picture.labels.push(Label { colour: band.colour, ..number }.strong());
         }
@@ -129,7 +130,7 @@ fn overlay(
         band.name(
             picture,
             y,
-            &format!("{} {} · {}", place + 1, band.lane.card().name, lateness(loops, frame)),
+            &format!("{} {} · {}", digit_of(place), band.lane.card().name, lateness(loops, frame)),
         );
     }
     front.is_recorded().then_some(camera)
@@ -241,7 +242,7 @@ impl<'a> LoopBand<'a> {
         }
         let drawn = self.shown_outline(frame);
         self.body(picture, &camera, &drawn);
-        self.outline_view(&camera, &drawn).number(picture, self.place + 1, self.colour);
+        self.outline_view(&camera, &drawn).number(picture, digit_of(self.place), self.colour);
         self.words(picture, &camera, frame, [drawn.at, exact.at]);
         self.is_recorded().then_some(camera)
     }

@@ -22,6 +22,7 @@ mod loupe;
 mod mass;
 mod moment;
 mod outgrown;
+mod scale_marks;
 mod sketch;
 mod trails;
 mod universe;

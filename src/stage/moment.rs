@@ -111,7 +111,7 @@ mod tests {
                     let are_near = (0..2).all(|of| is_near(places[body][of], wanted[body][of]));
                     assert!(are_near, "{way:?}: {places:?}, not {wanted:?}");
                 }
-                assert_eq!(said, format!("{} m/s", significant(speed, 2)));
+                assert_eq!(said, format!("{} m/s", significant(speed, 3)));
                 assert_eq!(shown_s(&studio.deck, &studio.viewer), studio.race().t());
                 studio.apply(RunCommand::NextInterpolation);
             }
@@ -136,7 +136,7 @@ mod tests {
                 let [spring, state] =
                     [0, 1].map(|body| shown_state(&studio.deck, &studio.viewer, &bodies[body]));
                 assert!(is_near(block, spring.0[0]) && is_near(ship, state.0[0]), "{way:?}");
-                assert_eq!(said, format!("{} m/s", significant(state.1[0], 2)), "{way:?}");
+                assert_eq!(said, format!("{} m/s", significant(state.1[0], 3)), "{way:?}");
                 studio.apply(RunCommand::NextInterpolation);
             }
         }

@@ -10,8 +10,8 @@ use crate::studio::ZoomPan;
 
 /// From the middle of a block to the tip of the pen under it, in blocks.
 pub(super) const PEN: f32 = 0.66;
-/// Room for digits below threads, in points.
-const FOOT: f64 = 22.0;
+/// Room for digits and a line of words below threads, in points.
+const FOOT: f64 = 40.0;
 
 /// Maps one body's world to one cell of the stage.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -33,6 +33,8 @@ pub(super) struct Camera {
     pub(super) quay_m: f64,
     /// Unit of the scale, for one metre of the picture.
     pub(super) unit: &'static str,
+    /// The zoom and the pan that the camera has, which keep the body in view.
+    pub(super) zoom_pan: ZoomPan,
 }
 
 impl Camera {
@@ -48,6 +50,7 @@ impl Camera {
             block,
             quay_m: 0.0,
             unit: "m",
+            zoom_pan: ZoomPan::default(),
         }
     }
 
@@ -71,6 +74,7 @@ impl Camera {
             points_per_metre: self.points_per_metre * zoom_pan.zoom(),
             paper: self.paper * zoom_pan.zoom(),
             block: self.block * demote(zoom_pan.zoom()),
+            zoom_pan,
             ..self
         }
     }

@@ -26,9 +26,14 @@ pub(super) fn act(deck: &mut Deck, viewer: &mut Viewer, action: Action) {
         return viewer.set_notice(out_of_range(action.noun()));
     }
     let was_past = deck.run.is_in_past();
+    let replaces = deck.run.replaces_open_action(&action);
     let (is_input, rests) = (action.input().is_some(), deck.comes_to_rest(viewer.motion()));
     let (done, mut told) = deck.with_notices(|run, notices| run.act_within(action, notices));
-    let Some(done) = done else { return viewer.set_notice_parts(told) };
+    deck.edits -= u64::from(replaces);
+    let Some(done) = done else {
+        viewer.notice.take_if(|_| replaces);
+        return viewer.set_notice_parts(told);
+    };
     deck.edits += 1;
     // The run starts, so that the person sees the effect of an input that was given at rest.
     deck.running |= is_input && rests;
@@ -155,6 +160,7 @@ pub(super) fn step_by(deck: &mut Deck, viewer: &mut Viewer, ticks: i64) {
     while deck.race().tick() < tick {
         make_tick(deck, viewer, &mut ());
     }
+    deck.follow_with_compared(deck.race().t());
     deck.run.show_present();
 }
 

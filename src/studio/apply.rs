@@ -1,29 +1,32 @@
 //! Passes each command to the part of the studio that executes it.
 
-use std::mem::take;
-
 use super::Studio;
 use super::command::{Command, SCALE_LADDER, USUAL_SCALE_PERCENT, ViewCommand};
 use super::deck::Deck;
 use super::dispatch::{carry_out_on_run, carry_out_on_stage};
 use super::display::DriverRequest;
+use super::escaping::escape;
 use super::guiding::{close_guide, go_to_stop, go_to_stop_beside, look_at_goal, toggle_guide};
 use super::joint::joint_code;
-use super::looping::{
-    carry_out_in_loop_lab, change_loop_lab, leave_loop_lab, open_loop_lab, refuse_in_loop_lab,
-};
+use super::looping::{carry_out_in_loop_lab, change_loop_lab, open_loop_lab, refuse_in_loop_lab};
 use super::opening::described_spring;
 use super::restarting::plot_coordinate;
 use super::viewer::{Dialog, Viewer};
 use crate::loops::loop_lab::LoopCommand;
 
-/// Question before the program quits with unsaved edits.
-const QUIT_QUESTION: &str = "this run is not saved: F5 saves it, Esc again quits";
-
 impl Studio {
     /// Executes a command. Returns the part of the command that the driver has to execute, if any.
     pub fn apply(&mut self, command: impl Into<Command>) -> Option<DriverRequest> {
         let command = command.into();
+        // Every deed answers the question, a moving pointer does not.
+        let is_deed = !matches!(command, Command::View(ViewCommand::PointAt(_)));
+        if is_deed && self.viewer.quit_question.take().is_some() {
+            match command {
+                Command::View(ViewCommand::Enter) => return Some(DriverRequest::Quit),
+                Command::View(ViewCommand::Escape) => return None,
+                _ => {}
+            }
+        }
         self.viewer.hints.mark_followed(&command, self.deck.run.next().scene.hint.as_deref());
         if !self.viewer.pointer_is_down() {
             self.deck.run.close_change();
@@ -84,6 +87,7 @@ impl Studio {
             }
             ViewCommand::Split(splits) => display.splits = splits.clamped(),
             ViewCommand::ToggleGhost => display.ghost = !display.ghost,
+            ViewCommand::ToggleFrameRate => display.frame_rate = !display.frame_rate,
             ViewCommand::ToggleTheme => {
                 display.theme = display.theme.other();
                 self.viewer.preferences.theme_is_chosen = true;
@@ -100,7 +104,9 @@ impl Studio {
                 plot_coordinate(&mut self.deck, &mut self.viewer, body, coordinate)
             }
             ViewCommand::PlotRanges(ranges) => self.viewer.view.plot_ranges = ranges,
-            ViewCommand::ToggleEnlarged => display.enlarged = !display.enlarged,
+            ViewCommand::ToggleEnlarged | ViewCommand::Enter => {
+                display.enlarged = !display.enlarged
+            }
             ViewCommand::Copy => {
                 let of_lane =
                     |entry| [DriverRequest::CopyJoint(entry), DriverRequest::CopyMethod(entry)];
@@ -132,6 +138,7 @@ impl Studio {
             ViewCommand::SpringTickHz(tick_hz) => {
                 self.viewer.dialog = Some(Dialog::Spring { tick_hz });
             }
+            ViewCommand::CloseComparison => _ = self.deck.close_comparison(),
             ViewCommand::CloseDialog => self.viewer.dialog = None,
             ViewCommand::ToggleGuide => toggle_guide(&mut self.deck, &mut self.viewer),
             ViewCommand::GoToStop(index) => go_to_stop(&mut self.deck, &mut self.viewer, index),
@@ -143,9 +150,7 @@ impl Studio {
                     tour.predict(choice);
                 }
             }
-            ViewCommand::Escape => {
-                return if self.escape() { None } else { quit(&mut self.deck, &mut self.viewer) };
-            }
+            ViewCommand::Escape => return escape(self),
         }
         // A stop of the guide opens a scene, which has a run of its own.
         if self.deck.openings != openings {
@@ -153,26 +158,13 @@ impl Studio {
         }
         None
     }
+}
 
-    /// Closes the foremost thing that is open. Returns whether anything was open.
-    fn escape(&mut self) -> bool {
-        // A hand on the tick rate keeps it until the button goes up.
-        self.deck.tick_rate_is_held
-            || self.deck.let_go()
-            || self.viewer.dialog.take().is_some()
-            || take(&mut self.viewer.preferences.display.help)
-            || self.close_guide()
-            || take(&mut self.viewer.preferences.display.enlarged)
-            || take(&mut self.viewer.preferences.display.inspector)
-            || leave_loop_lab(self)
-    }
-
-    /// Closes the guide, and a loop lab that shows the motion of the guide's stop. Returns whether the guide was open.
-    fn close_guide(&mut self) -> bool {
-        let is_closed = close_guide(&mut self.deck, &mut self.viewer);
-        self.loops.take_if(|_| is_closed);
-        is_closed
-    }
+/// Closes the guide, and a loop lab that shows the motion of the guide's stop. Returns whether the guide was open.
+pub(super) fn close_guide_and_lab(studio: &mut Studio) -> bool {
+    let is_closed = close_guide(&mut studio.deck, &mut studio.viewer);
+    studio.loops.take_if(|_| is_closed);
+    is_closed
 }
 
 /// Returns the request, or `None` if it would leave the driver nothing to copy.
@@ -182,14 +174,4 @@ fn if_copyable(deck: &Deck, viewer: &Viewer, request: DriverRequest) -> Option<D
         DriverRequest::CopyJoint(entry) => joint_code(deck, viewer, entry).map(|_| request),
         _ => Some(request),
     }
-}
-
-/// Quits. If there are unsaved edits, asks first and quits at the second request.
-fn quit(deck: &mut Deck, viewer: &mut Viewer) -> Option<DriverRequest> {
-    let is_asked = viewer.notice.as_deref() == Some(QUIT_QUESTION);
-    if is_asked || deck.edits == deck.saved_edits || viewer.preferences.is_recorded {
-        return Some(DriverRequest::Quit);
-    }
-    viewer.set_notice(QUIT_QUESTION);
-    None
 }

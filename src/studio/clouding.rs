@@ -29,7 +29,7 @@ pub fn cloud_request(studio: &Studio) -> Option<CloudRequest> {
     Some(CloudRequest {
         scene: Arc::clone(&deck.run.next().scene),
         body: viewer.view.body,
-        lanes: deck.clouded_lanes().map(|entry| (entry, deck.entries()[entry])).collect(),
+        lanes: deck.clouded_lanes().map(|entry| (entry, deck.spec(entry))).collect(),
         tick_hz,
         choice,
         tick: match choice.kind {
@@ -53,7 +53,7 @@ pub fn cloud_refusal(deck: &Deck, viewer: &Viewer) -> Option<NoCloud> {
 /// none, or if they are not shown.
 pub fn shown_cloud(studio: &Studio) -> Option<&FoundCloud> {
     let wanted = cloud_request(studio)?;
-    studio.viewer.cloud.as_ref().filter(|found| found.request.is_alike(&wanted))
+    studio.viewer.cloud.as_ref().filter(|found| found.request.is_of_one_run(&wanted))
 }
 
 /// Time for which the clouds of an opened scene stay at their start, and maximum time to wait for them, in nanoseconds.
@@ -82,9 +82,21 @@ pub(super) fn wait_for_cloud(studio: &mut Studio, frame_ns: i64) -> bool {
     }
 }
 
-/// Accepts clouds, unless they belong to another run.
+/// Accepts clouds, unless they belong to another run. The clouds shown stay until new ones, with other points, have
+/// caught up with them.
 pub fn accept_cloud(studio: &mut Studio, found: FoundCloud) {
-    if cloud_request(studio).is_some_and(|wanted| wanted.is_alike(&found.request)) {
+    let Some(wanted) = cloud_request(studio).filter(|wanted| wanted.is_alike(&found.request))
+    else {
+        return;
+    };
+    let ticks = shown_cloud(studio).and_then(|shown| {
+        let [shown, found] = [shown, &found].map(|it| it.picture.as_ref().ok().map(|it| it.tick));
+        Some((shown?, found?))
+    });
+    let has_caught_up = ticks.is_none_or(|(shown, found)| {
+        found == wanted.tick || (shown.min(wanted.tick)..=shown.max(wanted.tick)).contains(&found)
+    });
+    if has_caught_up {
         studio.viewer.cloud = Some(found);
     }
 }
@@ -107,8 +119,9 @@ pub fn complete_clouds(studio: &mut Studio, worker: &mut CloudWorker, stop: impl
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::measure::cloud::CloudChoice;
     use crate::scene::Scene;
-    use crate::studio::{StageCommand, Studio, show_clouds_of_scene};
+    use crate::studio::{RunCommand, StageCommand, Studio, show_clouds_of_scene};
 
     #[test]
     fn a_lone_cloud_never_leaves_its_picture() {
@@ -132,6 +145,49 @@ mod tests {
                 assert!(border.iter().all(is_in), "{scene}: the exact cloud is in it too");
             }
         }
+    }
+
+    #[test]
+    fn clouds_stay_until_those_with_more_points_have_caught_up() {
+        let mut studio = Studio::new(Scene::built_in("liouville").unwrap());
+        studio.viewer.preferences.display.motion = Motion::Live;
+        show_clouds_of_scene(&mut studio.deck, &mut studio.viewer);
+        let choice = studio.display().cloud;
+        let few = CloudChoice { points: 2000, ..choice };
+        studio.apply(RunCommand::Cloud(few));
+        (0..40).for_each(|_| studio.tick());
+        let mut worker = CloudWorker::default();
+        complete_clouds(&mut studio, &mut worker, || false);
+        let shown = |studio: &Studio| {
+            let picture = shown_cloud(studio).expect("clouds").picture.as_ref().unwrap();
+            (picture.tick, picture.points)
+        };
+        assert_eq!(shown(&studio), (40, 2000));
+        studio.apply(RunCommand::Cloud(CloudChoice { points: 50_000, ..choice }));
+        worker.set_request(cloud_request(&studio).map(Arc::new));
+        let mut kept = 0;
+        while !worker.is_done() {
+            if let Some(found) = worker.work() {
+                accept_cloud(&mut studio, found);
+            }
+            let (tick, points) = shown(&studio);
+            assert_eq!(tick, 40);
+            kept += usize::from(points == 2000);
+        }
+        assert_eq!(shown(&studio), (40, 50_000));
+        assert!(kept > 1, "kept for {kept} pictures");
+        // A run that goes on shows clouds that lag behind it, but none earlier than before.
+        (0..20).for_each(|_| studio.tick());
+        worker.set_request(cloud_request(&studio).map(Arc::new));
+        let mut last = 40;
+        while !worker.is_done() {
+            if let Some(found) = worker.work() {
+                accept_cloud(&mut studio, found);
+            }
+            assert!(shown(&studio).0 >= last);
+            last = shown(&studio).0;
+        }
+        assert_eq!(last, 60);
     }
 
     #[test]

@@ -143,7 +143,8 @@ pub enum ViewCommand {
     TogglePause,
     /// Reports that the pointer's button goes down or up. Undo treats all edits while the button is down as one.
     PointerDown(bool),
-    /// Holds the tick rate until the pointer's button goes up. Meanwhile time waits, and the stage shows futures.
+    /// Holds the tick rate, or another value of the run, until the pointer's button goes up. Meanwhile time waits, and
+    /// the stage shows futures.
     HoldTickRate,
     /// Opens a field for the path of a scene file.
     AskForPath,
@@ -157,6 +158,8 @@ pub enum ViewCommand {
     DescribeSpring(MySpring),
     /// Sets the tick rate (Hz) for the spring of the dialog.
     SpringTickHz(TickRate),
+    /// Ends the comparison with a recording.
+    CloseComparison,
     /// Closes the open dialog.
     CloseDialog,
     /// Puts the instruments, the table and the timeline around the stage, or lets the stage fill the window.
@@ -167,6 +170,8 @@ pub enum ViewCommand {
     ToggleFutures,
     /// Shows or hides the exact ghost.
     ToggleGhost,
+    /// Shows or hides the frame rate of the driver and the time of a frame.
+    ToggleFrameRate,
     /// Toggles between the dark and the light theme.
     ToggleTheme,
     /// Sets the next larger or smaller size of type and panels from [`SCALE_LADDER`].
@@ -222,8 +227,11 @@ pub enum ViewCommand {
     StopBeside(Step),
     /// Predicts this choice at the guide's stop, from 0.
     Predict(usize),
-    /// Releases or closes the first of these that there is: held body, dialog, help, guide, enlarged instrument,
-    /// inspector, loop lab. Otherwise quits, but at the second time only if there are unsaved edits.
+    /// Toggles the enlarged instrument, or quits if the program asks whether to quit.
+    Enter,
+    /// Takes the foremost of these away: body or tick rate in hand, dialog, help, guide, inspector, enlarged instrument,
+    /// futures, comparison, loop lab, race, full screen. If there is none, asks whether to quit, or answers that question
+    /// with no.
     Escape,
 }
 

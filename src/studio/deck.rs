@@ -7,6 +7,7 @@ use glam::DVec2;
 use super::compared::Compared;
 use super::display::{Display, View};
 use super::notices::Notices;
+use super::run_before::RunBefore;
 use super::scene_list::SceneList;
 use crate::measure::cloud::MAX_CLOUDS;
 use crate::run::past::Past;
@@ -27,7 +28,7 @@ pub struct Deck {
     pub(super) held: Option<HeldBody>,
     /// The body that the person pulls while time runs.
     pub(super) pulled: Option<PulledBody>,
-    /// Whether the person holds the tick rate.
+    /// Whether the person holds the tick rate or another value of the run.
     pub(super) tick_rate_is_held: bool,
     /// The lane that is selected in a race. It stays selected through switches of its method.
     pub(super) selected: LaneId,
@@ -43,6 +44,8 @@ pub struct Deck {
     pub(super) saved_edits: u64,
     /// The recording to which the run was compared, if the two differ.
     pub(super) compared: Option<Box<Compared>>,
+    /// The run before the last restart, if it had another tick rate or method.
+    pub(super) run_before: Option<Box<RunBefore>>,
     /// The run that the person left for the guide, while a stop of the guide is on the stage.
     pub(super) left: Option<Box<LeftRun>>,
 }
@@ -75,6 +78,7 @@ impl Deck {
             edits: 0,
             saved_edits: 0,
             compared: None,
+            run_before: None,
             left: None,
         }
     }
@@ -92,6 +96,11 @@ impl Deck {
     /// Returns the run with its past and its future.
     pub fn run(&self) -> &Run {
         &self.run
+    }
+
+    /// Returns the run before the last restart, if it had another tick rate or method.
+    pub fn run_before(&self) -> Option<&RunBefore> {
+        self.run_before.as_deref()
     }
 
     /// Returns the lanes and the truth.
@@ -112,8 +121,37 @@ impl Deck {
     /// Returns the name of the method with this menu index. If another entry has the same method, the name includes the
     /// settings.
     pub fn lane_name(&self, entry: MenuIndex) -> String {
-        let spec = &self.entries()[entry];
-        spec.distinct_name(spec.method.name, self.entries())
+        let name = |entry: MenuIndex| {
+            let spec = &self.entries()[entry];
+            spec.distinct_name(spec.method.name, self.entries())
+        };
+        match self.switched(entry) {
+            Some((to, _)) => format!("{} → {}", name(entry), name(to)),
+            None => name(entry),
+        }
+    }
+
+    /// Returns the settings of the lane with this menu index, or if there is no lane, those of the menu.
+    pub fn spec(&self, entry: MenuIndex) -> LaneSpec {
+        self.lane_of(entry).map_or(self.entries()[entry], |lane| lane.spec)
+    }
+
+    /// Returns the menu index of the method to which the lane of a race with this menu index was switched, and the time
+    /// (s) of the switch. Returns `None` if the lane has the method of its entry.
+    pub fn switched(&self, entry: MenuIndex) -> Option<(MenuIndex, f64)> {
+        let Entrant { id, spec, .. } = self.lane_of(entry)?;
+        if spec.method == self.entries()[entry].method {
+            return None;
+        }
+        let to = self.entries().iter().position(|listed| listed.method == spec.method)?;
+        let race = self.race();
+        let is_it = |action: &Action| match action {
+            Action::Lane { lane, spec: by } => lane == id && by.method == spec.method,
+            _ => false,
+        };
+        let mut rows = race.journal().rows()[..race.done()].iter().rev();
+        let tick = rows.find(|row| is_it(&row.action))?.tick;
+        Some((to, self.run.times().t(tick)))
     }
 
     /// Returns the number of menu methods to show at first. They are the scene's methods, and all up to the last that
@@ -173,7 +211,7 @@ impl Deck {
         self.running && self.held.is_none() && !self.tick_rate_is_held
     }
 
-    /// Whether the person holds the tick rate, according to the last [`ViewCommand::HoldTickRate`](super::ViewCommand).
+    /// Whether the person holds the tick rate or another value of the run, according to the last [`ViewCommand::HoldTickRate`](super::ViewCommand).
     pub fn is_tick_rate_held(&self) -> bool {
         self.tick_rate_is_held
     }
@@ -211,11 +249,16 @@ impl Deck {
         self.compared.as_deref()
     }
 
-    /// Moves the compared recording to the tick of the run.
-    pub(super) fn follow_with_compared(&mut self) {
+    /// Moves the compared recording to the displayed moment (s) of the run.
+    pub(super) fn follow_with_compared(&mut self, shown_s: f64) {
         if let Some(compared) = &mut self.compared {
-            compared.go_to(self.run.race().tick());
+            compared.go_to(shown_s);
         }
+    }
+
+    /// Ends the comparison with a recording. Returns whether there was one.
+    pub(super) fn close_comparison(&mut self) -> bool {
+        self.compared.take().is_some()
     }
 
     /// Whether a person has acted after the start of the run. If so, a restart would run differently.
@@ -223,11 +266,6 @@ impl Deck {
         let race = self.race();
         let rows = &race.journal().rows()[..race.done()];
         rows.iter().any(|row| row.tick > 0 && row.author == Author::Person)
-    }
-
-    /// Whether the run on the screen has changed since it was judged, so that the verdicts describe another run.
-    pub fn is_judged_apart(&self) -> bool {
-        self.run().checkpoints().was_changed_since_judged(self.race())
     }
 
     /// Returns the menu indices of the lanes with a cloud. They are all lanes, or if there are too many, the first ones

@@ -45,6 +45,8 @@ pub struct Display {
     pub futures: bool,
     /// Whether the stage shows the exact ghost.
     pub ghost: bool,
+    /// Whether the stage shows the frame rate of the driver, and the time of a frame.
+    pub frame_rate: bool,
     /// How bodies are drawn between ticks.
     pub interpolation: Interpolation,
     /// Instrument in the panel beside the stage.

@@ -11,7 +11,7 @@ use crate::look::{Framing, Look};
 use crate::loops::Due;
 use crate::run::past::History;
 use crate::run::race::{Interpolation, LaneBody, Mode, Observer};
-use crate::sim::number::significant;
+use crate::sim::number::{round, significant};
 
 /// Fastest zoom that people can follow, in powers of ten per second of real time.
 const MAX_ZOOM: f64 = 6.0;
@@ -66,6 +66,8 @@ pub(super) fn advance(
     if due.ticks > 0 {
         deck.run.show_present();
     }
+    let shown_s = shown_s(deck, viewer);
+    deck.follow_with_compared(shown_s);
     deck.dropped += due.dropped;
     note_frame(deck, viewer, frame_ns, due);
     due
@@ -75,7 +77,6 @@ pub(super) fn advance(
 pub(super) fn make_tick(deck: &mut Deck, viewer: &mut Viewer, observer: &mut dyn Observer) {
     viewer.notice.take_if(|notice| notice.is_of_tick());
     let ((), told) = deck.with_notices(|run, notices| run.tick(&mut (notices, observer)));
-    deck.follow_with_compared();
     viewer.set_notice_parts(told);
 }
 
@@ -121,10 +122,11 @@ pub fn shown_truth(deck: &Deck, viewer: &Viewer, body: usize) -> (Vec<f64>, Vec<
     deck.past().truth_between(deck.race(), body, 1.0 + shown_ticks(deck, viewer))
 }
 
-/// Returns the speed at which a person can follow a lane that outgrows the stage, in thousandths of the set speed. At
-/// this speed no landmark passes in less than [`LANDMARK_S`].
+/// Returns the speed at which a person can follow a lane that outgrows the stage, in thousandths of real time. At this
+/// speed no landmark passes in less than [`LANDMARK_S`]. A speed that the person has set stays as it is.
 pub(super) fn slow_motion(deck: &Deck, viewer: &Viewer) -> u32 {
-    if viewer.display().motion != Motion::Live || deck.mode() != Mode::Solo || !deck.time_runs() {
+    let is_watched = viewer.display().motion == Motion::Live && deck.time_runs();
+    if !is_watched || deck.mode() != Mode::Solo || deck.clock().speed_percent() != 100 {
         return 1000;
     }
     let selected = deck.selected();
@@ -145,8 +147,7 @@ pub(super) fn slow_motion(deck: &Deck, viewer: &Viewer) -> u32 {
         };
         decades_per_s / most
     });
-    let speed = f64::from(deck.clock().speed_percent()) / 100.0;
-    let fastest = speed * zooms.fold(0.0, f64::max);
+    let fastest = zooms.fold(0.0, f64::max);
     match fastest <= 1.0 {
         true => 1000,
         false => ((1000.0 / fastest) as u32).max(MIN_THOUSANDTHS),
@@ -158,6 +159,17 @@ pub fn slowed_in_words(deck: &Deck, viewer: &Viewer) -> Option<String> {
     let thousandths = slow_motion(deck, viewer);
     let times = significant(f64::from(thousandths) / 1e3, 1);
     (thousandths < 1000).then(|| format!("slowed ×{times}"))
+}
+
+/// Describes the speed at which time runs, or returns `None` if it is that of real time.
+pub fn pace_in_words(deck: &Deck, viewer: &Viewer) -> Option<String> {
+    let percent = deck.clock().speed_percent();
+    let set = (percent != 100).then(|| match percent {
+        25 => "at ¼× speed".into(),
+        50 => "at ½× speed".into(),
+        _ => format!("at {}× speed", round(f64::from(percent) / 100.0, 3)),
+    });
+    set.or_else(|| slowed_in_words(deck, viewer))
 }
 
 /// Returns the rate at which a body exceeds both this distance and its own past reach, in powers of ten per simulated

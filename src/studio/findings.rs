@@ -14,19 +14,24 @@ use crate::sim::bodies::{Parameter, Range, TakesEffect};
 /// [offered](Deck::offered) method is judged at the present tick rate. In a race the rest of the menu is judged too.
 /// The advice is included while it is shown.
 ///
-/// The findings apply to the scene from its start, with a person's settings and the parameters that the script has set
-/// by the present tick. If a person has placed or kicked a body, the findings start at the true state right after that.
+/// A verdict is of what follows the last change of the run. A lane is judged from the state that it had then, and any
+/// other method from the true one. Advice is on the scene from its start, or from where a person last placed or kicked a
+/// body, with a person's settings and the parameters that the script has set by the present tick.
 pub fn analysis_request(deck: &Deck, viewer: &Viewer) -> AnalysisRequest {
     let flown = deck.race().entrants().iter().map(|lane| deck.entry(lane) + 1);
     let first = flown.max().unwrap_or_default().max(deck.offered());
-    let entries = match deck.mode() {
-        Mode::Solo => &deck.entries()[..first],
-        Mode::Race => deck.entries(),
+    let count = match deck.mode() {
+        Mode::Solo => first,
+        Mode::Race => deck.entries().len(),
     };
+    let checkpoints = deck.run().checkpoints();
+    let by_hand = Interventions::in_race(deck.race(), checkpoints);
+    let lane = |entry| deck.lane_of(entry).map(|lane| lane.id).filter(|&id| by_hand.differ_in(id));
     AnalysisRequest {
         scene: Arc::clone(&deck.run.next().scene),
-        by_hand: Interventions::in_race(deck.race(), deck.run().checkpoints()),
-        entries: entries.to_vec(),
+        advised: Interventions::for_advice(deck.race(), checkpoints),
+        entries: (0..count).map(|entry| (deck.spec(entry), lane(entry))).collect(),
+        by_hand,
         first,
         tick_hz: deck.clock.tick_hz(),
         advice: (viewer.display().instrument == Instrument::Advice)
@@ -137,8 +142,162 @@ pub fn unanswered_request(deck: &Deck, viewer: &Viewer) -> Option<AnalysisReques
 
 #[cfg(test)]
 mod tests {
-    use crate::scene::Scene;
-    use crate::studio::{StageCommand, Studio};
+    use std::thread;
+
+    use super::*;
+    use crate::measure::{Severity, Verdict};
+    use crate::scene::{Action, SCENES, Scene};
+    use crate::studio::{RunCommand, StageCommand, Studio};
+
+    /// Seconds before and after a change of the run.
+    const BEFORE_S: f64 = 1.5;
+    const AFTER_S: f64 = 4.0;
+
+    /// Returns the request for the verdict on the selected lane alone.
+    fn asked(studio: &Studio) -> AnalysisRequest {
+        let request = studio.analysis_request();
+        let entries = vec![request.entries[studio.active()]];
+        AnalysisRequest { first: 1, entries, ..request }
+    }
+
+    fn answered(request: AnalysisRequest) -> Verdict {
+        AnalysisWorker::new(request).bounded().finish().verdicts[0].clone().expect("it is judged")
+    }
+
+    fn selected(studio: &Studio) -> Verdict {
+        answered(asked(studio))
+    }
+
+    /// Returns for each body how wide the selected lane swings from now on, relative to the truth; `None` for a body
+    /// that does not swing.
+    fn widths(studio: &mut Studio) -> Vec<Option<f64>> {
+        let bodies = studio.scene().bodies.len();
+        let mut ranges = vec![[[f64::INFINITY, f64::NEG_INFINITY]; 2]; bodies];
+        let (mut turns, mut speeds) = (vec![0; bodies], vec![0.0; bodies]);
+        let ticks = (AFTER_S * studio.race().tick_hz().hz()) as u32;
+        for _ in 0..ticks {
+            studio.tick();
+            let (race, lane) = (studio.race(), studio.selected());
+            for body in 0..bodies {
+                let (own, truth) = (&lane.lane.bodies()[body], &race.truth().bodies()[body]);
+                for (range, body) in ranges[body].iter_mut().zip([own, truth]) {
+                    let q = body.stepper.q()[0];
+                    *range = [range[0].min(q), range[1].max(q)];
+                }
+                let v = truth.stepper.v()[0];
+                turns[body] += u32::from(v * speeds[body] < 0.0);
+                speeds[body] = v;
+            }
+        }
+        let width = |(ranges, turns): (&[[f64; 2]; 2], &u32)| {
+            let [own, truth] = ranges.map(|[least, most]| most - least);
+            (*turns >= 4 && truth > 0.0).then_some(own / truth)
+        };
+        ranges.iter().zip(&turns).map(width).collect()
+    }
+
+    #[test]
+    fn no_swing_wider_than_exact_by_a_tenth_has_a_green_sign_after_a_change() {
+        let changes: [(&str, fn(&mut Studio)); 4] = [
+            ("switch", |studio| {
+                studio.apply(StageCommand::Pick(1));
+            }),
+            ("kick", |studio| {
+                studio.apply(RunCommand::Act(Action::Kick(1.0)));
+            }),
+            ("pull", |studio| {
+                let pushes = (0..studio.scene().bodies.len()).map(|body| {
+                    let n = studio.race().truth().bodies()[body].stepper.q().len();
+                    Action::Push { body, by: vec![0.3; n].into() }
+                });
+                pushes.collect::<Vec<_>>().into_iter().for_each(|push| {
+                    studio.apply(RunCommand::Act(push));
+                });
+            }),
+            ("rate", |studio| {
+                let twice = studio.race().tick_hz().scaled(2, 1);
+                studio.apply(StageCommand::TickHz(twice));
+            }),
+        ];
+        let check = |scene: &'static str| {
+            let (mut wide, mut swings) = (0, 0);
+            for (name, change) in changes {
+                let mut studio = Studio::new(Scene::built_in(scene).unwrap());
+                studio.apply(StageCommand::Pick(0));
+                if studio.mode() == Mode::Race {
+                    studio.apply(StageCommand::ToggleRace);
+                }
+                let ticks = (BEFORE_S * studio.race().tick_hz().hz()) as u32;
+                (0..ticks).for_each(|_| studio.tick());
+                change(&mut studio);
+                let request = asked(&studio);
+                let widths = widths(&mut studio);
+                let widths: Vec<f64> = widths.into_iter().map(|it| it.unwrap_or(0.0)).collect();
+                swings += widths.iter().filter(|&&width| width > 0.0).count();
+                if !widths.iter().any(|&width| width > 1.1) {
+                    continue;
+                }
+                let verdict = answered(request);
+                for (width, found) in widths.into_iter().zip(&verdict.of_bodies) {
+                    wide += usize::from(width > 1.1);
+                    let is_green =
+                        matches!(found.outcome().severity(), Severity::Fine | Severity::Fair);
+                    assert!(width <= 1.1 || !is_green, "{scene}, {name}: {width} × under {found}");
+                }
+            }
+            (wide, swings)
+        };
+        let found = thread::scope(|threads| {
+            let checks = SCENES.iter().map(|scene| threads.spawn(move || check(scene.name)));
+            let checks: Vec<_> = checks.collect();
+            let found = checks.into_iter().map(|check| check.join().expect("it holds"));
+            found.fold((0, 0), |all, one| (all.0 + one.0, all.1 + one.1))
+        });
+        assert!(found.0 >= 20 && found.1 >= 40, "of how many swings it was asked: {found:?}");
+    }
+
+    #[test]
+    fn a_verdict_is_of_what_follows_the_last_change_of_the_run() {
+        let mut studio = Studio::new(Scene::built_in("spring").unwrap());
+        let said = |studio: &Studio| selected(studio).to_string();
+        assert_eq!(said(&studio), "grows · swing ×2 in 2.1 s");
+        (0..120).for_each(|_| studio.tick());
+        studio.apply(StageCommand::Pick(1));
+        // Explicit Euler has multiplied the swing by (1 + h² ω²)^(n / 2), 1.925 in 120 ticks.
+        let verdict = selected(&studio);
+        assert_eq!(verdict.starts_at_s, 2.0);
+        let widths = verdict.comparison().and_then(|found| found.widths).expect("two swings");
+        let wanted = libm::pow(1.0 + libm::pow(std::f64::consts::TAU / 60.0, 2.0), 60.0);
+        assert!((widths.own / widths.truth / wanted - 1.0).abs() < 0.01, "{widths:?}, {wanted}");
+        assert!(verdict.to_string().starts_with("stays ±1.9"), "{verdict}");
+        assert_eq!(verdict.outcome().severity(), Severity::Doubtful);
+        studio.apply(StageCommand::Pick(0));
+        assert_eq!(said(&studio), "grows · swing ×2 in 2.1 s");
+        assert_eq!(selected(&studio).details()[0], "already 1.9 × too wide");
+        studio.apply(StageCommand::ToggleRace);
+        studio.analyse();
+        let raced = studio.viewer.verdict(1).expect("it is judged").to_string();
+        assert_eq!(raced, "looks right · 17 ms early after 20 s", "a lane from the start");
+        studio.apply(StageCommand::ToggleRace);
+        studio.apply(StageCommand::Restart);
+        assert!(!said(&studio).starts_with("stays"));
+    }
+
+    #[test]
+    fn an_earlier_verdict_does_not_stand_over_a_changed_run() {
+        let mut studio = Studio::new(Scene::built_in("spring").unwrap());
+        studio.analyse();
+        (0..60).for_each(|_| studio.tick());
+        let stands = |studio: &Studio| studio.viewer.verdict_from_here(&studio.deck, 1).is_some();
+        assert!(stands(&studio) && studio.viewer.is_judged_now(&studio.deck, 1));
+        studio.apply(StageCommand::Pick(1));
+        assert!(!stands(&studio) && !studio.viewer.is_judged_now(&studio.deck, 1));
+        studio.analyse();
+        assert!(stands(&studio) && studio.viewer.is_judged_now(&studio.deck, 1));
+        // The rate is dragged on from here, so that the verdict stays until the next one.
+        studio.apply(StageCommand::TickHz(30.into()));
+        assert!(stands(&studio) && !studio.viewer.is_judged_now(&studio.deck, 1));
+    }
 
     #[test]
     fn solo_judges_the_offered_methods_and_a_race_also_the_others() {

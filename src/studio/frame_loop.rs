@@ -12,6 +12,9 @@ use super::{Command, DriverRequest, Studio, ViewCommand};
 /// driver stays responsive.
 const MAX_SIMULATION_NS: u64 = 50_000_000;
 
+/// Share of the last frame in the mean time of a frame. The mean follows a change in a third of a second.
+const PART_OF_LAST_FRAME: f64 = 0.05;
+
 /// A task that a command leaves to the driver.
 #[derive(Clone, Debug, PartialEq)]
 pub enum ToDo {
@@ -135,13 +138,21 @@ impl FrameLoop {
             self.stand_still(shown_ns);
         }
         self.meter.frame(now_ns, &self.studio);
+        let work_ms = shown_ns.saturating_sub(now_ns) as f64 / 1e6;
+        let mean_ms = self.studio.viewer.frame_ms.unwrap_or(work_ms);
+        self.studio.viewer.frame_ms = Some(mean_ms + PART_OF_LAST_FRAME * (work_ms - mean_ms));
         self.asked.extend(commands);
         if self.studio.running() || !self.asked.is_empty() {
             return 0;
         }
-        let notice = self.studio.viewer.notice.as_ref().map(|notice| notice.left_ns());
-        let futures = Some(self.studio.viewer.futures_left_ns).filter(|&left| left > 0);
-        notice.into_iter().chain(futures).min().map_or(u64::MAX, i64::unsigned_abs)
+        let viewer = &self.studio.viewer;
+        let notices = [&viewer.notice, &viewer.quit_question].into_iter().flatten();
+        let futures = Some(viewer.futures_left_ns).filter(|&left| left > 0);
+        notices
+            .map(|notice| notice.left_ns())
+            .chain(futures)
+            .min()
+            .map_or(u64::MAX, i64::unsigned_abs)
     }
 
     /// Notes that the frame could not be drawn. Until the first frame of a scene is drawn, no time passes in its run.
@@ -183,6 +194,21 @@ mod tests {
         assert_eq!(frames.begin(), None);
         frames.advance(now_ns, u64::MAX, &|| now_ns);
         frames.end(now_ns, now_ns, commands)
+    }
+
+    #[test]
+    fn the_time_of_a_frame_follows_the_work_on_it() {
+        let (mut frames, mut now_ns) = begun("spring");
+        for work_ns in [4_000_000, 12_000_000] {
+            for _ in 0..200 {
+                assert_eq!(frames.begin(), None);
+                frames.advance(now_ns, u64::MAX, &|| now_ns);
+                frames.end(now_ns, now_ns + work_ns, Vec::new());
+                now_ns += FRAME_NS;
+            }
+            let ms = frames.studio.viewer.frame_ms.expect("it is measured");
+            assert!((ms - work_ns as f64 / 1e6).abs() < 0.1, "{ms} ms of {work_ns} ns");
+        }
     }
 
     #[test]
@@ -275,5 +301,20 @@ mod tests {
         let due_ns = frame(&mut frames, 0, Vec::new());
         assert!((1_000_000_000..60_000_000_000).contains(&due_ns), "{due_ns} ns");
         assert_eq!(frame(&mut frames, 0, vec![pause]), 0, "a command waits");
+    }
+
+    #[test]
+    fn a_notice_and_a_question_stay_after_a_long_pause_before_their_key() {
+        let (mut frames, now_ns) = begun("spring");
+        frames.queue([ViewCommand::TogglePause.into()]);
+        frame(&mut frames, now_ns, Vec::new());
+        let later_ns = 600_000_000_000;
+        frames.queue([ViewCommand::UsualScale.into(), ViewCommand::Escape.into()]);
+        frame(&mut frames, later_ns, Vec::new());
+        assert!(frames.studio.viewer.notice.is_some());
+        assert!(frames.studio.viewer.quit_question().is_some());
+        frame(&mut frames, later_ns + 60_000_000_000, Vec::new());
+        assert!(frames.studio.viewer.notice.is_none());
+        assert!(frames.studio.viewer.quit_question().is_none());
     }
 }

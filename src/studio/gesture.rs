@@ -17,7 +17,7 @@ pub static GESTURES: &[Gesture] = &[
     },
     Gesture { shown: "Ctrl drag a body", about: "pull it by a spring while time runs" },
     Gesture { shown: "Wheel, pinch", about: "zoom the stage, a plot, the timeline" },
-    Gesture { shown: "Drag the water", about: "pan; in a plot too" },
+    Gesture { shown: "Drag the water", about: "pan, after a zoom; in a plot too" },
     Gesture { shown: "Double click", about: "fit the view; on a number in Edit: type a value" },
     Gesture {
         shown: "Click a lane",

@@ -37,6 +37,7 @@ fn hint_context<'a>(deck: &'a Deck, viewer: &'a Viewer, is_in_loop_lab: bool) ->
         speed_percent: deck.clock.speed_percent(),
         is_paused: !deck.running && !deck.comes_to_rest(viewer.motion()),
         is_in_loop_lab,
+        is_lost: deck.lost_at().is_some(),
         display: viewer.display(),
     }
 }
@@ -140,6 +141,21 @@ pub(super) fn look_at_goal(
     viewer.tour = Some(tour);
 }
 
+/// Returns the hint while a person holds the tick rate or looks at futures.
+fn fan_hint(deck: &Deck, viewer: &Viewer, is_in_loop_lab: bool) -> Option<&'static str> {
+    let shows_fan = viewer.display().futures && !deck.time_runs() && !is_in_loop_lab;
+    match (deck.tick_rate_is_held, deck.running) {
+        (true, true) => {
+            Some("Let go, and time runs on at this rate. `Esc` brings the old one back.")
+        }
+        (true, false) => Some("Let go to keep this rate. `Esc` brings the old one back."),
+        (false, _) if shows_fan => {
+            Some("Where do the threads part? `F` or `Esc` closes the fan, `Space` runs on.")
+        }
+        _ => None,
+    }
+}
+
 /// Returns the next thing to try, which a run at rest, the guide, the scene or the program suggests. Keys stand between
 /// backticks.
 pub(super) fn hint(deck: &Deck, viewer: &Viewer, is_in_loop_lab: bool) -> Option<String> {
@@ -159,6 +175,9 @@ pub(super) fn hint(deck: &Deck, viewer: &Viewer, is_in_loop_lab: bool) -> Option
             }
         };
         return Some(next.to_owned());
+    }
+    if let Some(fan) = fan_hint(deck, viewer, is_in_loop_lab) {
+        return Some(fan.to_owned());
     }
     let outcome = viewer.verdict(deck.active()).map(|verdict| verdict.outcome());
     viewer.hints.text(&hint_context(deck, viewer, is_in_loop_lab), outcome)

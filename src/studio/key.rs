@@ -128,6 +128,11 @@ macro_rules! keys {
 /// Number of methods that digits pick: with the keys 1 to 9, and 0.
 pub const DIGITS: usize = 10;
 
+/// Returns the digit of the key that picks the entry with this index, one of the first [`DIGITS`].
+pub fn digit_of(index: usize) -> usize {
+    (index + 1) % DIGITS
+}
+
 /// Every key and its command.
 pub static KEYS: &[Binding] = keys! {
     once "1 … 9, 0" "solo: this method takes over at once; race, loop lab: select that lane":
@@ -197,7 +202,7 @@ pub static KEYS: &[Binding] = keys! {
         Sign('d') => Stage(StageCommand::InstrumentBeside(Step::Next)),
         ShiftSign('d') => Stage(StageCommand::InstrumentBeside(Step::Previous));
     once "Enter" "enlarge the instrument over the stage":
-        Enter => View(ViewCommand::ToggleEnlarged);
+        Enter => View(ViewCommand::Enter);
     once "Ctrl C, Ctrl E" "copy the instrument's values, or on a lane its method, or an engine's settings, as code; save as PNG, SVG and CSV":
         ControlSign('c') => View(ViewCommand::Copy), ControlSign('e') => Ask(DriverRequest::ExportInstrument);
     once "E" "Edit: parameters, methods and rates, while it runs":
@@ -210,6 +215,8 @@ pub static KEYS: &[Binding] = keys! {
         ControlSign('l') => Ask(DriverRequest::CopyLink);
     once "X" "equal cost of all lanes on / off: cheap lanes get more substeps":
         Sign('x') => Run(RunCommand::ToggleEqualCost);
+    once "F4" "frames drawn in a second, and milliseconds of work on each, on / off":
+        Function(4) => View(ViewCommand::ToggleFrameRate);
     once "F11" "full screen":
         Function(11) => Ask(DriverRequest::ToggleFullScreen);
     once "F2" "guide: the chapter in stops, each with a prediction and a key to press":
@@ -220,8 +227,8 @@ pub static KEYS: &[Binding] = keys! {
     once "H, F1, ?" "help":
         Sign('h') => View(ViewCommand::ToggleHelp), Function(1) => View(ViewCommand::ToggleHelp),
         Sign('?') => View(ViewCommand::ToggleHelp);
-    once "Esc" "let go of a body, close the overlay, the guide, the instrument, Edit, leave the loop lab, or quit: twice where something would be lost"
-        or "let go of a body, close the overlay, the guide, the instrument, Edit, leave the loop lab; with Tab after it, leave the stage":
+    once "Esc" "take away, in turn: a body or the tick rate in hand, dialog, help, guide, Edit, instrument, fan, comparison, loop lab, race, full screen; then ask whether to quit"
+        or "take away, in turn: a body or the tick rate in hand, dialog, help, guide, Edit, instrument, fan, comparison, loop lab, race; with Tab after it, leave the stage":
         Escape => View(ViewCommand::Escape);
 };
 

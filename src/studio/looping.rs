@@ -12,7 +12,9 @@ use super::instrument::Instrument;
 use super::step::Step;
 use super::viewer::Viewer;
 use crate::loops::FrameTrace;
-use crate::loops::loop_lab::{FoundLoop, LoopCommand, LoopLab, LoopRequest, LoopWorker, SLOWNESS};
+use crate::loops::loop_lab::{
+    FoundLoop, LoopCommand, LoopLab, LoopRequest, LoopWorker, SLOWNESS, SLOWNESS_AT_FIRST,
+};
 use crate::scene::SceneBody;
 use crate::sim::integrators::{Method, method};
 
@@ -29,8 +31,12 @@ pub fn loop_lab_refusal(deck: &Deck, viewer: &Viewer) -> Option<String> {
 
 /// Opens the loop lab with the displayed body, unless the body is [refused](loop_lab_refusal).
 pub(super) fn open_loop_lab(studio: &mut Studio) {
-    let method = method(METHOD_AT_FIRST).expect("a built-in method");
     let body = studio.viewer.view.body;
+    let flown = studio.deck.selected().spec.method;
+    // A run that has begun goes on in the lab under its method and at its rate, as far as the lab has them.
+    let has_begun = studio.deck.race().tick() > 0;
+    let usual = method(METHOD_AT_FIRST).expect("a built-in method");
+    let method = if has_begun { flown } else { usual };
     if let Some(refusal) = loop_lab_refusal(&studio.deck, &studio.viewer) {
         return studio.viewer.set_notice(refusal);
     }
@@ -38,7 +44,12 @@ pub(super) fn open_loop_lab(studio: &mut Studio) {
     loops.run_goes_on = studio.deck.running;
     loops.stage_was_alone = !studio.viewer.display().measure;
     studio.viewer.preferences.display.measure = true;
-    loops.play_opening();
+    if has_begun {
+        loops.set_tick_hz(studio.deck.race().tick_hz());
+        loops.set_slowness(slowness_of(studio.deck.clock().speed_percent()));
+    } else {
+        loops.play_opening();
+    }
     studio.loops = Some(loops.into());
     studio.viewer.preferences.display.instrument = Instrument::Loop;
     studio.viewer.preferences.display.inspector = false;
@@ -47,8 +58,25 @@ pub(super) fn open_loop_lab(studio: &mut Studio) {
     if studio.viewer.tour.as_ref().is_some_and(|tour| tour.stop().goal != Goal::LoopLab) {
         studio.viewer.leave_guide(studio.deck.left.as_deref());
         studio.viewer.set_notice("the guide is closed: F2 opens it again, L leads to your own run");
+    } else if let Some(loops) = studio.loops.as_ref().filter(|_| has_begun) {
+        studio.viewer.set_notice(format!(
+            "the loops start again at t = 0, with your {} at {:.3} Hz, {}",
+            loops.method().name,
+            loops.scene().tick_hz,
+            match loops.slowness() {
+                1 => "in real time".into(),
+                slowness => format!("{slowness} times slower"),
+            },
+        ));
     }
     studio.deck.running = true;
+}
+
+/// Returns the slow motion of the loop lab for a run at this speed (percent). At real time and above it is the usual
+/// one, because a loop's judder passes too fast to be seen.
+fn slowness_of(speed_percent: u32) -> u32 {
+    let slower = SLOWNESS.into_iter().rev().find(|slowness| slowness * speed_percent <= 100);
+    slower.filter(|_| speed_percent < 100).unwrap_or(SLOWNESS_AT_FIRST)
 }
 
 /// Leaves the loop lab. The run resumes or stays paused as before. If the guide was closed meanwhile, the run that the

@@ -29,6 +29,7 @@ mod deck;
 mod dispatch;
 mod display;
 mod driving;
+mod escaping;
 mod file_names;
 mod findings;
 mod frame_loop;
@@ -47,6 +48,7 @@ mod pace;
 mod pulling;
 mod restarting;
 mod resting;
+mod run_before;
 mod saved_preferences;
 mod scene_list;
 mod spring_field;
@@ -64,7 +66,7 @@ pub use command::{
 pub use compared::Compared;
 pub use deck::{Deck, HeldBody, PulledBody};
 pub use display::{Arrangement, Display, DriverRequest, Motion, Pace, Splits, View};
-pub use driving::{shown_s, shown_state, shown_tick, shown_truth, slowed_in_words};
+pub use driving::{pace_in_words, shown_s, shown_state, shown_tick, shown_truth, slowed_in_words};
 pub use file_names::{instrument_file_name, picture_file_name};
 pub use findings::{
     accept_findings, analyse_bounded, analysis_request, mappable_parameters, mapped_parameter,
@@ -74,7 +76,7 @@ pub use frame_loop::{FrameLoop, ToDo};
 pub use gesture::{GESTURES, Gesture};
 pub use instrument::{INSTRUMENTS, Instrument, InstrumentCard, InstrumentGroup};
 pub use joint::{SpringJoint, joint_code};
-pub use key::{Binding, DIGITS, KEYS, Key, command_for};
+pub use key::{Binding, DIGITS, KEYS, Key, command_for, digit_of};
 pub use looping::{
     accept_loop, loop_lab_refusal, loop_request, open_loop_lab_on, open_traces, run_loops,
 };
@@ -86,6 +88,7 @@ pub use opening::{
     show_clouds_of_scene, show_comparison, show_mistakes,
 };
 pub use pace::{LiveFrame, LiveLoop, PaceMeter};
+pub use run_before::RunBefore;
 pub use saved_preferences::SavedPreferences;
 pub use scene_list::SceneList;
 pub use spring_field::SpringField;
@@ -235,6 +238,7 @@ impl Studio {
     /// Performs the actions at this tick, and steps to the next tick.
     pub fn tick(&mut self) {
         make_tick(&mut self.deck, &mut self.viewer, &mut ());
+        self.deck.follow_with_compared(self.deck.race().t());
     }
 
     /// Adds a frame of `frame_ns` nanoseconds of real time, and makes the ticks that are due.

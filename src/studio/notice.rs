@@ -13,6 +13,8 @@ pub struct Notice {
     text: String,
     parts: Vec<String>,
     left_ns: i64,
+    /// Whether no time has passed since the deed. The time before the deed does not count.
+    is_new: bool,
     /// Whether the message belongs only to the present tick.
     is_of_tick: bool,
 }
@@ -38,9 +40,11 @@ impl Notice {
         self.left_ns
     }
 
-    /// Reduces the remaining time by `ns` nanoseconds.
+    /// Reduces the remaining time by `ns` nanoseconds, except at the first call.
     pub(super) fn pass_time(&mut self, ns: i64) {
-        self.left_ns = self.left_ns.saturating_sub(ns.max(0)).max(0);
+        if !std::mem::take(&mut self.is_new) {
+            self.left_ns = self.left_ns.saturating_sub(ns.max(0)).max(0);
+        }
     }
 }
 
@@ -48,7 +52,7 @@ impl From<Vec<String>> for Notice {
     fn from(parts: Vec<String>) -> Self {
         let text = parts.join("; ");
         let left_ns = MIN_NS + LETTER_NS * text.chars().count() as i64;
-        Self { text, parts, left_ns, is_of_tick: false }
+        Self { text, parts, left_ns, is_new: true, is_of_tick: false }
     }
 }
 

@@ -196,24 +196,22 @@ pub fn refuse_typed_path(
 pub fn show_comparison(studio: &mut Studio, name: &str, found: &Comparison, recording: Scene) {
     studio.viewer.dialog = None;
     studio.deck.compared = None;
-    let told = match &found.first {
-        _ if !found.is_comparable() => {
-            vec![format!("{name} and this run share nothing that moves")]
-        }
-        None if found.is_same() => vec![format!("{name} is the same in {} rows", found.rows)],
-        None => {
-            vec![format!("{name} and this run are equal in the {} rows that both have", found.rows)]
-        }
-        Some(first) => {
-            let compared = Compared::new(name, recording, first.clone());
-            let lines = compared.lines();
+    let compared = Compared::new(name, recording, found.first.as_ref(), studio.run());
+    let told = match compared {
+        _ if !found.is_comparable() => format!("{name} and this run share nothing that moves"),
+        None if found.is_same() => format!("{name} is the same in {} rows", found.rows),
+        None => format!("{name} and this run are equal in the {} rows that both have", found.rows),
+        // The stage shows what differs.
+        Some(compared) => {
+            let tick = compared.tick();
             studio.deck.compared = Some(compared.into());
-            studio.apply(RunCommand::Seek(first.tick));
+            studio.apply(RunCommand::Seek(tick));
             // The run may not yet have reached the tick of the difference.
-            let ahead = first.tick.saturating_sub(studio.race().tick()).min(MAX_RERUN);
+            let ahead = tick.saturating_sub(studio.race().tick()).min(MAX_RERUN);
             (0..ahead).for_each(|_| studio.tick());
-            studio.deck.follow_with_compared();
-            lines.into()
+            studio.deck.follow_with_compared(studio.race().t());
+            studio.viewer.notice = None;
+            return;
         }
     };
     studio.viewer.set_notice(told);

@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use super::deck::Deck;
+use super::run_before::EndingRun;
 use super::viewer::Viewer;
 use crate::run::race::{Author, Mode};
 use crate::run::{Run, StartSettings};
@@ -24,6 +25,7 @@ pub(super) fn follow(deck: &mut Deck, viewer: &mut Viewer, jump: Jump) {
     viewer.live.jump();
     if jump != Jump::ToAnotherTick {
         deck.let_go();
+        deck.run_before = None;
         record_chosen_coordinates(deck, viewer);
     }
     if jump == Jump::ToAnotherRun {
@@ -32,7 +34,7 @@ pub(super) fn follow(deck: &mut Deck, viewer: &mut Viewer, jump: Jump) {
         deck.dropped = 0;
         (viewer.notice, deck.compared) = (None, None);
     }
-    deck.follow_with_compared();
+    deck.follow_with_compared(deck.race().t());
     deck.run.show_present();
 }
 
@@ -59,7 +61,11 @@ pub(super) fn restart(
 pub(super) fn restart_keeping_run(deck: &mut Deck, viewer: &mut Viewer) -> bool {
     let is_edited = !Arc::ptr_eq(deck.run.session().scene(), &deck.run.next().scene);
     let keeps = is_by_hand(&deck.run) || is_edited;
+    let (earlier, ending) = (deck.run_before.take(), EndingRun::of(deck));
     restart(deck, viewer, keeps.then_some("the restart"), |_| ());
+    if !is_edited {
+        deck.run_before = ending.and_then(|ending| ending.before(deck)).or(earlier);
+    }
     keeps
 }
 

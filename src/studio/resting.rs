@@ -185,35 +185,6 @@ mod tests {
     }
 
     #[test]
-    fn escape_leaves_the_loop_lab_and_asks_before_losing_unsaved_edits() {
-        use crate::loops::loop_lab::LoopCommand;
-        use crate::studio::DriverRequest;
-        let escape = |studio: &mut Studio| studio.apply(ViewCommand::Escape);
-        let quits = Some(DriverRequest::Quit);
-        let mut studio = watched("spring");
-        studio.apply(LoopCommand::ToggleLab);
-        assert!(studio.loop_lab().is_some());
-        assert_eq!((escape(&mut studio), studio.loop_lab().is_none()), (None, true));
-        assert_eq!(escape(&mut studio), quits, "nobody has done anything");
-        studio.apply(StageCommand::ToggleRace);
-        assert_eq!(escape(&mut studio), quits, "a race repeats itself");
-        studio.apply(RunCommand::Act(Action::Kick(1.0)));
-        assert_eq!(escape(&mut studio), None);
-        let told = studio.viewer.notice.as_deref().unwrap_or_default();
-        assert!(told.contains("F5") && told.contains("Esc"), "{told}");
-        assert_eq!(escape(&mut studio), quits, "it was asked");
-        studio.viewer.notice = None;
-        assert_eq!(escape(&mut studio), None, "the question has left");
-        studio.deck.note_saved();
-        assert_eq!(escape(&mut studio), quits, "it is saved");
-        studio.apply(StageCommand::TickHz(30.into()));
-        studio.viewer.notice = None;
-        assert_eq!(escape(&mut studio), None, "it has changed since");
-        studio.viewer.preferences.is_recorded = true;
-        assert_eq!(escape(&mut studio), quits);
-    }
-
-    #[test]
     fn a_seek_into_the_future_stops_at_the_present_with_a_notice() {
         let mut studio = watched("spring");
         (0..120).for_each(|_| studio.tick());

@@ -3,7 +3,7 @@
 use super::command::{
     Command, RunCommand, SCALE_LADDER, StageCommand, USUAL_SCALE_PERCENT, ViewCommand,
 };
-use super::deck::LeftRun;
+use super::deck::{Deck, LeftRun};
 use super::display::{Arrangement, Display, Motion, Pace, Splits, View};
 use super::guide::{Hints, Tour};
 use super::instrument::Instrument;
@@ -66,6 +66,8 @@ pub struct Preferences {
     pub(super) left_at: usize,
     /// Whether the driver keeps a recording of the run. If so, nothing is lost when the program ends.
     pub is_recorded: bool,
+    /// Whether the driver's window fills the screen.
+    pub is_full_screen: bool,
     /// Whether the driver is a page in a browser. A browser keeps some keys for itself, and a page cannot quit.
     pub is_page: bool,
 }
@@ -109,6 +111,7 @@ impl Default for Preferences {
                 splits: Splits::default(),
                 futures: false,
                 ghost: true,
+                frame_rate: false,
                 interpolation: Interpolation::default(),
                 instrument: Instrument::Motion,
                 quantity: None,
@@ -130,6 +133,7 @@ impl Default for Preferences {
             my_spring: MySpring::default(),
             left_at: 0,
             is_recorded: false,
+            is_full_screen: false,
             is_page: false,
         }
     }
@@ -146,10 +150,14 @@ pub struct Viewer {
     pub(super) pointed: Option<MenuIndex>,
     /// The driver's pace while time runs, or `None` if there is no real time, as in a capture.
     pub pace: Option<Pace>,
+    /// Recent mean time (ms) that the driver works on a frame, or `None` if there is no real time.
+    pub frame_ms: Option<f64>,
     /// Duration (ns) of each lane's tick, as last measured by the driver, or `None` for a lane that halted.
     pub tick_times: Vec<(LaneSpec, Option<f64>)>,
     /// The latest message, while it is shown.
     pub notice: Option<Notice>,
+    /// The question before the program quits, while it is on the stage.
+    pub(super) quit_question: Option<Notice>,
     /// The last frames of the studio's own loop.
     pub live: LiveLoop,
     pub(super) findings: Option<Findings>,
@@ -178,6 +186,7 @@ impl Viewer {
         Self {
             preferences: self.preferences.clone(),
             pace: self.pace,
+            frame_ms: self.frame_ms,
             hints: self.hints.of_next_scene(),
             hints_of_left: self.hints_of_left.clone(),
             tour: self.tour.take(),
@@ -243,11 +252,22 @@ impl Viewer {
         self.judged(entry).filter(|_| !self.is_asked())
     }
 
-    /// Whether the verdict on the method with this menu index was found at this tick rate. After a change of the rate,
+    /// Like [`verdict`](Self::verdict), if it begins at the last change of the run. An earlier one says nothing about
+    /// what follows.
+    pub fn verdict_from_here(&self, deck: &Deck, entry: MenuIndex) -> Option<&Verdict> {
+        let starts_at_s = deck.run().checkpoints().verdicts_start_at_s();
+        self.verdict(entry).filter(|verdict| verdict.starts_at_s == starts_at_s)
+    }
+
+    /// Whether the verdict on the method with this menu index is of the run as it is now. After a change of the rate,
     /// a verdict at the old rate stays until the next one is found.
-    pub fn is_judged_at(&self, entry: MenuIndex, tick_hz: TickRate) -> bool {
+    pub fn is_judged_now(&self, deck: &Deck, entry: MenuIndex) -> bool {
         let found = self.findings.as_ref();
-        found.is_some_and(|found| found.request.tick_hz == tick_hz && entry < found.judged)
+        found.is_some_and(|Findings { request, judged, .. }| {
+            request.tick_hz == deck.clock().tick_hz()
+                && request.by_hand.are_last(deck.run().checkpoints())
+                && entry < *judged
+        })
     }
 
     /// Returns the same as [`verdict`](Self::verdict), but also while a person is asked for a prediction.
@@ -271,21 +291,28 @@ impl Viewer {
         self.findings.as_ref()?.map.as_ref()
     }
 
+    /// Returns the question whether to quit, while it is shown. Its parts are lines, with keys between backticks.
+    pub fn quit_question(&self) -> Option<&Notice> {
+        self.quit_question.as_ref()
+    }
+
     /// Shows a message for some seconds.
     pub fn set_notice(&mut self, notice: impl Into<Notice>) {
         self.notice = Some(notice.into());
     }
 
-    /// Lets `ns` nanoseconds of real time pass, and removes a notice whose time is over.
+    /// Lets `ns` nanoseconds of real time pass, and removes a notice and a question whose time is over.
     pub fn pass_time(&mut self, ns: i64) {
         // The time before a key is not that of its futures.
         if !std::mem::take(&mut self.futures_are_new) {
             self.futures_left_ns = self.futures_left_ns.saturating_sub(ns).max(0);
         }
-        if let Some(notice) = &mut self.notice {
-            notice.pass_time(ns);
+        for shown in [&mut self.notice, &mut self.quit_question] {
+            if let Some(notice) = shown {
+                notice.pass_time(ns);
+            }
+            shown.take_if(|notice| notice.left_ns() == 0);
         }
-        self.notice.take_if(|notice| notice.left_ns() == 0);
     }
 
     /// Switches to the next interpolation between ticks, and shows the name of that interpolation.
@@ -363,7 +390,9 @@ impl Viewer {
                     | StageCommand::OpenSpring
             ),
             Command::Run(command) => *command == RunCommand::ToggleInspector,
-            Command::View(command) => *command == ViewCommand::ToggleEnlarged,
+            Command::View(command) => {
+                matches!(command, ViewCommand::ToggleEnlarged | ViewCommand::Enter)
+            }
             Command::Loop(_) | Command::Ask(_) => false,
         };
         self.preferences.display.measure |= is_about;

@@ -8,6 +8,9 @@ const ZOOMS: (f64, f64) = (1.0 / 8.0, 64.0);
 /// distance a person can zoom in on everything that is visible at the minimum zoom.
 const FARTHEST: f64 = 4.5;
 
+/// Greatest distance of a kept place from the middle of the view, relative to the view.
+const KEPT: f64 = 0.45;
+
 /// A zoom and a pan relative to the frame that the camera fits. Their unit is the size of the frame, so that they do
 /// not depend on the size of the window.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -43,6 +46,19 @@ impl ZoomPan {
         let zoom = (self.zoom * times).clamp(ZOOMS.0, ZOOMS.1);
         let centre = [0, 1].map(|i| self.centre[i] + about[i] / self.zoom - about[i] / zoom);
         Self { zoom, centre: centre.map(within_reach) }
+    }
+
+    /// Pans no further than necessary to keep this place of the fitted frame in view. A place outside the fitted frame
+    /// is not kept.
+    pub fn keeping(self, place: [f64; 2]) -> Self {
+        if self == Self::default() || place.iter().any(|part| !(part.abs() <= 0.5)) {
+            return self;
+        }
+        let centre = [0, 1].map(|i| {
+            let reach = KEPT / self.zoom;
+            self.centre[i].clamp(place[i] - reach, place[i] + reach)
+        });
+        Self { centre, ..self }
     }
 
     /// Pans by fractions of the frame's width and height.
@@ -83,6 +99,32 @@ mod tests {
             assert!((after[0] - before[0] - 0.25).abs() < 1e-12);
             assert!((after[1] - before[1] + 0.125).abs() < 1e-12);
         }
+    }
+
+    #[test]
+    fn a_kept_place_stays_in_the_view_of_any_zoom_and_pan() {
+        for place in [[0.0, 0.0], [0.3, -0.4], [-0.5, 0.5]] {
+            for times in [0.2, 1.0, 3.0, 64.0] {
+                for by in [[0.0, 0.0], [0.4, -0.2], [-7.0, 9.0]] {
+                    let chosen = ZoomPan::default().zoomed(times, [0.4, -0.4]).panned(by);
+                    let kept = chosen.keeping(place);
+                    let seen = kept.place_in_view(place);
+                    let was = chosen.place_in_view(place);
+                    let is_default = chosen == ZoomPan::default();
+                    for axis in 0..2 {
+                        assert!(
+                            is_default || seen[axis].abs() <= KEPT + 1e-9,
+                            "{chosen:?}: {seen:?}"
+                        );
+                        let is_moved = (seen[axis] - was[axis]).abs() > 1e-9;
+                        assert_eq!(is_moved, !is_default && was[axis].abs() > KEPT + 1e-9);
+                    }
+                }
+            }
+        }
+        let chosen = ZoomPan::default().zoomed(4.0, [0.4, 0.4]);
+        assert_eq!(chosen.keeping([0.6, 0.0]), chosen, "the fitted frame does not show it");
+        assert_eq!(chosen.keeping([f64::NAN, 0.0]), chosen);
     }
 
     #[test]

@@ -15,9 +15,12 @@ use crate::sim::numerics::bisect;
 use crate::tools::identify::Effective;
 
 pub use any_rate::RuleCode;
+pub use pieces::{Course, Piece};
 pub use scene::rule_scene;
 
 mod any_rate;
+mod driven;
+mod pieces;
 mod scene;
 
 /// Frame rates at which a rule is shown, besides the author's rate.
@@ -29,7 +32,7 @@ const FASTEST_RINGING: f64 = 1e4;
 const FASTEST_GROWTH: f64 = 1e5;
 const RATIO: f64 = 1.02;
 const HALVINGS: u32 = 60;
-/// Fraction of the way, of a speed or of a swing, below which nothing is visible.
+/// Fraction of the way, of a speed or of a swing, below which nothing is visible, unless a rule has another.
 const OVER: f64 = 0.01;
 /// A rule grows if an eigenvalue exceeds 1 by `GROWTH`. If `MORE_GROWTH` moves the frame rate at which growth begins,
 /// no frame rate decides the growth.
@@ -42,6 +45,12 @@ const SMALL: f64 = 1e-6;
 const SMOOTH: f64 = 1e-3;
 /// Number of parts of a swing, or of a decay, in the search for the last visible moment.
 const PARTS: u32 = 64;
+/// Units of the length of a frame, with the number of each in a second.
+pub const UNITS: [(&str, f64); 3] = [("s", 1.0), ("ms", 1e3), ("us", 1e6)];
+/// A rule that takes longer to halve than this number of seconds may have another unit of time.
+const SLOW_S: f64 = 30.0;
+/// The shortest time to halve that a hint proposes, in seconds.
+const QUICK_S: f64 = 1e-3;
 /// Length of the run that shows whether a rule without a map grows, in seconds, and its maximum in frames.
 const WATCHED_S: f64 = 20.0;
 const MAX_WATCHED: f64 = 20_000.0;
@@ -56,6 +65,11 @@ pub struct Rule {
     is_linear: bool,
     /// Whether the value stays wherever it is, as under friction, but not on a spring.
     stays: bool,
+    /// The modes of the switches in a piece of a rule; empty for the whole rule.
+    modes: Vec<i64>,
+    /// Units of the length of a frame in a second.
+    units: f64,
+    within: f64,
 }
 
 /// The visible motion of a rule at a frame rate.
@@ -75,6 +89,12 @@ pub struct VisibleMotion {
     pub halves_s: Option<f64>,
     /// Whether the motion grows.
     pub grows: bool,
+    /// The speed at which the rule gains no more, in the units of `v`; `None` if there is none.
+    pub top_speed: Option<f64>,
+    /// The speed that the rule gains from rest per second, in the units of `v`; `None` if it does not drive itself.
+    pub accelerates: Option<f64>,
+    /// The height and the time in seconds of a jump that starts with [`Rule::jump_speed`].
+    pub jump: Option<[f64; 2]>,
 }
 
 /// The kind of motion that a rule makes.
@@ -104,9 +124,55 @@ impl Rule {
     /// Creates the rule as a map of these carried numbers and of those on which they depend.
     fn with_state(text: Arc<StepText>, fps: f64, state: Vec<usize>) -> Self {
         let (state, is_linear) = (text.with_causes(state), text.is_linear());
-        let mut rule = Self { text, fps, state, is_linear, stays: false };
-        rule.stays = rule.state.len() == 2 && rule.frame(fps).is_some_and(|it| it.keeps_place());
-        rule
+        let (modes, units, within) = (Vec::new(), 1.0, OVER);
+        Self { text, fps, state, is_linear, stays: false, modes, units, within }.settled()
+    }
+
+    fn settled(mut self) -> Self {
+        let frame = self.frame(self.fps).filter(|_| self.state.len() == 2);
+        self.stays = frame.is_some_and(|it| it.keeps_place());
+        self
+    }
+
+    /// Returns the rule whose frame length has this many units in a second.
+    #[must_use]
+    pub fn in_units(self, units: f64) -> Self {
+        Self { units, ..self }.settled()
+    }
+
+    /// Returns the rule that has settled within this fraction of the way, between 0 and 1.
+    #[must_use]
+    pub fn within(self, within: f64) -> Self {
+        Self { within, ..self }
+    }
+
+    /// Returns the fraction of the way within which the rule has settled.
+    pub fn settles_within(&self) -> f64 {
+        self.within
+    }
+
+    fn step_length(&self, fps: f64) -> f64 {
+        if self.units == 1.0 { 1.0 / fps } else { self.units / fps }
+    }
+
+    /// Returns the unit of [`UNITS`] in which a rule moves that takes more than half a minute to halve in seconds, and
+    /// the time to halve then.
+    pub fn other_unit(&self) -> Option<(&'static str, f64)> {
+        let time = |rule: &Self| {
+            let motions = rule.motions();
+            let times = motions.iter().filter_map(|seen| seen.halves_s.or(seen.settles_s));
+            times.reduce(f64::min)
+        };
+        if !self.takes_step() || self.units != 1.0 || time(self).is_none_or(|time| time < SLOW_S) {
+            return None;
+        }
+        UNITS[1..].iter().find_map(|(unit, units)| {
+            let text = Arc::clone(&self.text);
+            let other = Self::with_state(text, self.fps, self.state.clone()).in_units(*units);
+            let seen = other.motion_at(self.fps);
+            let halves = seen.halves_s.or(seen.settles_s)?;
+            (QUICK_S..SLOW_S).contains(&halves).then_some((*unit, halves))
+        })
     }
 
     /// Returns the rule as a map of all numbers that a game reads, including `x` and `v` if the rule's lines change
@@ -119,7 +185,8 @@ impl Rule {
                 state.push(index);
             }
         }
-        Self::with_state(Arc::clone(&self.text), self.fps, state)
+        let rule = Self::with_state(Arc::clone(&self.text), self.fps, state);
+        Self { units: self.units, within: self.within, ..rule }.settled()
     }
 
     /// Returns the frames per second for which the rule was written.
@@ -137,6 +204,11 @@ impl Rule {
         self.text.takes_step()
     }
 
+    /// Returns the component of vectors that the rule moves, and the other one whose lines are left out.
+    pub fn left_out(&self) -> Option<[char; 2]> {
+        self.text.left_out()
+    }
+
     /// Returns the names of the numbers that decide the motion.
     pub fn state(&self) -> impl Iterator<Item = &str> {
         self.state.iter().map(|index| &*self.text.carried()[*index].name)
@@ -145,7 +217,7 @@ impl Rule {
     /// Returns a frame as a map; `None` for more than two numbers, or if not even small motions about a rest at 0 are
     /// linear.
     fn frame(&self, fps: f64) -> Option<Frame> {
-        let frame = self.text.frame(&self.state, 1.0 / fps)?;
+        let frame = self.text.frame_on(&self.modes, &self.state, self.step_length(fps))?;
         (self.is_linear || self.is_smooth(&frame, fps)).then_some(frame)
     }
 
@@ -156,7 +228,7 @@ impl Rule {
             let mut registers = self.text.registers();
             let all = self.state.iter().zip(&at);
             all.for_each(|(index, value)| self.text.set(&mut registers, *index, *value));
-            self.text.step(&mut registers, 1.0 / fps, 0.0);
+            self.text.step(&mut registers, self.step_length(fps), 0.0);
             let after = self.state.iter().map(|index| self.text.value(&registers, *index));
             let expected = frame.map * at;
             after.zip(&expected).all(|(after, expected)| (after - expected).abs() <= SMOOTH * SMALL)
@@ -184,6 +256,7 @@ impl Rule {
 
     /// Returns the visible motion at this many frames per second.
     pub fn motion_at(&self, fps: f64) -> VisibleMotion {
+        let [top_speed, accelerates] = self.driven(fps);
         let nothing = VisibleMotion {
             fps,
             hz: None,
@@ -192,13 +265,17 @@ impl Rule {
             settles_s: None,
             halves_s: None,
             grows: false,
+            top_speed,
+            accelerates,
+            jump: accelerates.filter(|_| top_speed.is_none()).and_then(|_| self.jump(fps)),
         };
         let Some(motion) = self.motion(fps) else {
             return VisibleMotion { grows: self.grows_when_watched(fps), ..nothing };
         };
         let grows = motion.grows(GROWTH);
         let flips = motion.flips().then_some(fps / 2.0);
-        let settles_s = (motion.radius() < 1.0).then(|| motion.frames_to_settle().max(1.0) / fps);
+        let settles_s =
+            (motion.radius() < 1.0).then(|| motion.frames_to_settle(self.within).max(1.0) / fps);
         match motion {
             Motion::Approach { kept } | Motion::Coast { kept } => VisibleMotion {
                 hz: flips,
@@ -283,7 +360,7 @@ impl Rule {
         let motion = self.motion(self.fps).filter(|motion| is_still && motion.radius() < 1.0)?;
         match motion {
             Motion::Coast { kept } if frame.map.m21 == 0.0 && self.takes_step() => {
-                Some(vec![frame.map.m12 / (1.0 - kept)])
+                Some(vec![frame.map.m12 / (1.0 - kept) / self.units])
             }
             Motion::Coast { kept } if frame.map.m21 == 0.0 => {
                 Some(vec![frame.map.m12 / (1.0 - kept) / self.fps])
@@ -303,7 +380,7 @@ impl Rule {
         let frames = (WATCHED_S * fps).min(MAX_WATCHED) as u32;
         let mut farthest = [0.0_f64; 2];
         for frame in 0..frames {
-            self.text.step(&mut registers, 1.0 / fps, 0.0);
+            self.text.step(&mut registers, self.step_length(fps), 0.0);
             let value = self.text.value(&registers, first).abs();
             if !value.is_finite() {
                 return true;
@@ -352,9 +429,9 @@ impl Motion {
         }
     }
 
-    /// Returns the number of frames until less than [`OVER`] is left, not necessarily whole.
-    fn frames_to_settle(&self) -> f64 {
-        let by_radius = -libm::log(OVER) / -libm::log(self.radius());
+    /// Returns the number of frames until less than `over` is left, not necessarily whole.
+    fn frames_to_settle(&self, over: f64) -> f64 {
+        let by_radius = -libm::log(over) / -libm::log(self.radius());
         let Motion::Swing(map) = self else { return by_radius };
         let Some(powers) = Powers::of(map.trace(), map.determinant()) else { return by_radius };
         let beside = odd_coefficient(map);
@@ -370,14 +447,14 @@ impl Motion {
                 true => libm::hypot(1.0, beside / libm::sin(powers.apart)),
                 false => 1.0 + beside.abs() * end,
             };
-            end = by_radius * (1.0 + libm::log(amplitude) / -libm::log(OVER));
+            end = by_radius * (1.0 + libm::log(amplitude) / -libm::log(over));
         }
         let step = part / f64::from(PARTS);
         let starts = (1..=4 * PARTS).map(|n| end - f64::from(n) * step);
         let last =
-            starts.into_iter().take_while(|from| *from > 0.0).find(|from| left(*from) > OVER);
+            starts.into_iter().take_while(|from| *from > 0.0).find(|from| left(*from) > over);
         let from = last.unwrap_or(0.0);
-        bisect([from, from + step], HALVINGS, |frames| left(frames) > OVER)[1]
+        bisect([from, from + step], HALVINGS, |frames| left(frames) > over)[1]
     }
 }
 

@@ -9,6 +9,12 @@ use crate::picture_note::SOFTWARE;
 /// Length of the signature and the header, after which the note follows.
 const HEADER_BYTES: usize = 33;
 
+/// Length of the signature, and the checksum of the last chunk, which is empty.
+#[cfg(feature = "cli")]
+const SIGNATURE_BYTES: usize = 8;
+#[cfg(feature = "cli")]
+const IEND_CHECKSUM: [u8; 4] = [0xae, 0x42, 0x60, 0x82];
+
 /// Encodes `rgba`, straight 8-bit pixels of a picture of `size_px`, top row first.
 ///
 /// The filter is fixed: the difference from the pixel at the left, because seas and panels change little along a row.
@@ -23,6 +29,22 @@ pub fn encode([width, height]: [u32; 2], rgba: &[u8]) -> Vec<u8> {
         .expect("memory takes any picture");
     file.splice(HEADER_BYTES..HEADER_BYTES, note());
     file
+}
+
+/// Whether a PNG file ends with its last chunk, neither before nor after.
+#[cfg(feature = "cli")]
+pub fn is_whole(file: &[u8]) -> bool {
+    let mut rest = file.get(SIGNATURE_BYTES..).unwrap_or_default();
+    // A chunk has a length, a kind, that many bytes and a checksum.
+    while let Some((&[a, b, c, d, ref kind @ ..], after)) = rest.split_first_chunk::<8>() {
+        let Some(next) = after.get(u32::from_be_bytes([a, b, c, d]) as usize..) else { break };
+        let Some((checksum, next)) = next.split_first_chunk::<4>() else { break };
+        if kind == b"IEND" {
+            return next.is_empty() && *checksum == IEND_CHECKSUM;
+        }
+        rest = next;
+    }
+    false
 }
 
 /// The text chunk of a file, which `image` does not write.
@@ -45,6 +67,8 @@ mod tests {
         let picture = image::load_from_memory(&file).unwrap().into_rgba8();
         assert_eq!((picture.dimensions(), picture.into_raw()), ((5, 3), rgba.clone()));
         assert!(is_encoded_here(&file[..NOTED_WITHIN]));
+        assert!(is_whole(&file) && !is_whole(b""));
+        assert!(!is_whole(&file[..file.len() - 1]) && !is_whole(&[&file[..], b"x"].concat()));
         let mut other = std::io::Cursor::new(Vec::new());
         let picture = image::RgbaImage::from_raw(5, 3, rgba).unwrap();
         picture.write_to(&mut other, image::ImageFormat::Png).unwrap();

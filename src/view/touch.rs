@@ -9,7 +9,7 @@ use super::theme::{TYPE, palette};
 use crate::run::MenuIndex;
 use crate::run::race::Mode;
 use crate::scene::Action;
-use crate::stage::{Cell, Grasp, Picture, Whose};
+use crate::stage::{Cell, Grasp, Grip, Picture, Whose};
 use crate::studio::{Command, RunCommand, StageCommand, Studio, ViewCommand, ZoomPan};
 
 /// Distance from which a press is a drag, in points. A trembling hand stays below it.
@@ -17,6 +17,9 @@ const DRAG: f32 = 3.0;
 /// The time over which a drag's velocity is measured, in seconds: long enough for several frames, short enough for a
 /// hand that stopped to count as at rest.
 const MEMORY_S: f64 = 0.1;
+/// Time for which a moving body can also be taken where it was, in seconds: as late as people press,
+/// and a frame.
+const LATE_S: f64 = 0.22;
 /// Distance from a body's edge to the ring that marks it as draggable, in points.
 const RING: f32 = 3.0;
 /// Duration of a body's invitation to drag it, and time from one invitation to the next, in seconds.
@@ -30,6 +33,8 @@ const MAX_RING: f32 = 48.0;
 pub(super) struct Touch {
     press: Option<Press>,
     track: PointerTrail,
+    /// Cells of the last pictures of moving bodies with their times (s), the newest first.
+    before: VecDeque<(f64, Vec<Cell>)>,
     /// Start of the last invitation to drag a body, in seconds; `None` if there was none.
     invited_s: Option<f64>,
 }
@@ -62,6 +67,8 @@ struct Stage<'a> {
     picture: &'a Picture,
     /// Place of the stage, in points of the frame.
     rect: Rect,
+    /// Cells of the last pictures of moving bodies.
+    before: &'a VecDeque<(f64, Vec<Cell>)>,
 }
 
 impl Stage<'_> {
@@ -78,6 +85,13 @@ impl Stage<'_> {
         let at = self.point(at);
         self.picture.cells.iter().find(|cell| cell.rect.contains(at))
     }
+
+    /// The handle that a hand takes there.
+    fn grip(&self, cell: &Cell, at: Pos2) -> Option<Grip> {
+        let is_same = |then: &&Cell| (then.body, then.lane) == (cell.body, cell.lane);
+        let before = self.before.iter().filter_map(|(_, cells)| cells.iter().find(is_same));
+        cell.moving_grip_at(self.studio, &before.collect::<Vec<_>>(), self.point(at))
+    }
 }
 
 impl Touch {
@@ -90,9 +104,11 @@ impl Touch {
         studio: &Studio,
         commands: &mut Vec<Command>,
     ) {
-        let stage = Stage { studio, picture, rect };
         let (events, time, hover) =
             ui.input(|input| (input.events.clone(), input.time, input.pointer.latest_pos()));
+        let mut before = std::mem::take(&mut self.before);
+        before.retain(|(then, _)| studio.deck.time_runs() && time - then <= LATE_S);
+        let stage = Stage { studio, picture, rect, before: &before };
         let over_stage = |at: Pos2| {
             rect.contains(at) && ui.ctx().layer_id_at(at).is_none_or(|layer| layer == ui.layer_id())
         };
@@ -130,6 +146,10 @@ impl Touch {
             zoom(ui, &stage, at, commands);
         }
         self.point_out(ui, &stage, hover, time);
+        if studio.deck.time_runs() {
+            before.push_front((time, picture.cells.clone()));
+        }
+        self.before = before;
     }
 
     /// Agrees with the studio, which may have released the body itself (Escape), or may still hold one that this
@@ -158,7 +178,7 @@ impl Touch {
             return;
         }
         let Some(cell) = stage.cell(at) else { return };
-        let grip = cell.grip_at(stage.studio, point);
+        let grip = stage.grip(cell, at);
         let on = match grip.and_then(|grip| Grasp::new(stage.studio, cell, &grip, point)) {
             Some(grasp) => {
                 commands.push(Command::Run(hold_or_pull(&grasp, pulls)));
@@ -168,10 +188,7 @@ impl Touch {
                 };
                 PressTarget::Body { grasp, entry, pulls }
             }
-            None => {
-                let zoom_pan = stage.studio.view().zoom_pan(cell.zoomed_as);
-                PressTarget::Sea { cell: cell.clone(), zoom_pan }
-            }
+            None => PressTarget::Sea { cell: cell.clone(), zoom_pan: cell.zoom_pan() },
         };
         self.press = Some(Press { from: at, is_drag: false, on });
         self.track = PointerTrail::default();
@@ -190,6 +207,8 @@ impl Touch {
                 grasp.pull(stage.studio, stage.point(at), [0.0; 2]);
                 commands.push(Command::Run(hold_or_pull(grasp, *pulls)));
             }
+            // The automatic view hides nothing.
+            PressTarget::Sea { zoom_pan, .. } if *zoom_pan == ZoomPan::default() => {}
             PressTarget::Sea { cell, zoom_pan } => {
                 let [from, to] = [press.from, at].map(|at| cell.part(stage.point(at)));
                 let zoom_pan = zoom_pan.panned([to[0] - from[0], to[1] - from[1]]);
@@ -236,7 +255,11 @@ impl Touch {
     fn point_out(&mut self, ui: &Ui, stage: &Stage<'_>, hover: Option<Pos2>, time: f64) {
         let cursor = match &self.press {
             Some(Press { on: PressTarget::Body { .. }, .. }) => CursorIcon::Grabbing,
-            Some(Press { is_drag: true, .. }) => CursorIcon::Move,
+            Some(Press { is_drag: true, on: PressTarget::Sea { zoom_pan, .. }, .. })
+                if *zoom_pan != ZoomPan::default() =>
+            {
+                CursorIcon::Move
+            }
             Some(_) => return,
             None => {
                 let Some(at) = hover else { return };
@@ -244,7 +267,7 @@ impl Touch {
                     return ui.ctx().set_cursor_icon(CursorIcon::PointingHand);
                 }
                 let Some(cell) = stage.cell(at) else { return };
-                let Some(grip) = cell.grip_at(stage.studio, stage.point(at)) else { return };
+                let Some(grip) = stage.grip(cell, at) else { return };
                 let origin = stage.rect.min.to_vec2();
                 let [low, high] = [cell.rect.min, cell.rect.max].map(|at| Pos2::from(at) + origin);
                 let painter = ui.painter().with_clip_rect(Rect::from_min_max(low, high));
@@ -257,10 +280,11 @@ impl Touch {
                 if time - since >= INVITED_S {
                     self.invited_s = Some(time);
                 } else if time - since < INVITES_S {
-                    let at = middle + vec2(0.0, radius + 12.0);
+                    // The name of the ghost is to the right.
+                    let at = middle + vec2(-8.0, radius + 12.0);
                     let font = FontId::proportional(TYPE);
                     let colour = palette(ui).accent;
-                    painter.text(at, Align2::CENTER_CENTER, "drag me", font, colour);
+                    painter.text(at, Align2::RIGHT_CENTER, "drag me", font, colour);
                 }
                 CursorIcon::Grab
             }
@@ -285,7 +309,7 @@ fn zoom(ui: &Ui, stage: &Stage<'_>, at: Pos2, commands: &mut Vec<Command>) {
         commands.push(Command::View(ViewCommand::ZoomPan { body, zoom_pan: ZoomPan::default() }));
     } else if times != 1.0 {
         let about = cell.part(stage.point(at));
-        let zoom_pan = stage.studio.view().zoom_pan(body).zoomed(times, about);
+        let zoom_pan = cell.zoom_pan().zoomed(times, about);
         commands.push(Command::View(ViewCommand::ZoomPan { body, zoom_pan }));
     }
 }

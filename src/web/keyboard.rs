@@ -104,6 +104,7 @@ fn named(key: &str) -> Option<Key> {
         "F1" => Key::Function(1),
         "F2" => Key::Function(2),
         "F3" => Key::Function(3),
+        "F4" => Key::Function(4),
         "F5" => Key::Function(5),
         "F11" => Key::Function(11),
         "F12" => Key::Function(12),

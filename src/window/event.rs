@@ -24,6 +24,8 @@ pub(super) enum Event {
     TicksTimed(Vec<(LaneSpec, Option<f64>)>),
     /// Advice on the spring that a person has described, as a scene.
     SpringAdvised(Box<Result<Scene, SceneErrors>>),
+    /// Work on a separate thread met a bug, which this sentence describes. The thread goes on.
+    WorkFailed(String),
     /// Ctrl-C was pressed in the terminal.
     Interrupted,
     /// The reason why the growing run is not recorded.
@@ -79,6 +81,10 @@ impl App {
                     self.stand_still();
                     self.request_redraw();
                 }
+            }
+            Event::WorkFailed(sentence) => {
+                self.frames.studio.viewer.set_notice(sentence);
+                self.request_redraw();
             }
             Event::NotRecorded(reason) => {
                 self.frames

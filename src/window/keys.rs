@@ -88,6 +88,7 @@ fn named(name: NamedKey) -> Option<Key> {
         NamedKey::F1 => Key::Function(1),
         NamedKey::F2 => Key::Function(2),
         NamedKey::F3 => Key::Function(3),
+        NamedKey::F4 => Key::Function(4),
         NamedKey::F5 => Key::Function(5),
         NamedKey::F11 => Key::Function(11),
         NamedKey::F12 => Key::Function(12),

@@ -3,6 +3,7 @@
 use std::path::{MAIN_SEPARATOR, Path, PathBuf, is_separator};
 use std::sync::Arc;
 
+use super::work_thread::caught;
 use crate::loops::{FrameTrace, trace_file};
 use crate::regular_file::{self, MAX_TABLE_BYTES};
 use crate::run::diff::{Chosen, Comparison, NotComparable, Tolerance, diff};
@@ -85,7 +86,12 @@ impl RequestedFile {
     /// Reads the file, and prepares anything that its first frame would wait for. A disk can be slow, and a large net
     /// takes longer than a frame, so this must not run on the drawing thread.
     pub(super) fn read(self, read: &ReadScene) -> ReadFile {
-        let content = if let Some(run) = &self.compared {
+        let content = read_caught(|| self.content(read));
+        ReadFile { requested: self, content }
+    }
+
+    fn content(&self, read: &ReadScene) -> Result<FileContent, Vec<ShownError>> {
+        if let Some(run) = &self.compared {
             read(&self.path).map(|(scene, _)| {
                 FileContent::Compared(
                     (compare_recordings(scene.clone(), (**run).clone()), scene).into(),
@@ -97,9 +103,15 @@ impl RequestedFile {
             lines_in(&self.path, read)
         } else {
             scene_in(&self.path, read)
-        };
-        ReadFile { requested: self, content }
+        }
     }
+}
+
+/// Reads a file. A panic counts as a mistake of the file, so that the next file can be opened.
+pub(super) fn read_caught<T>(
+    read: impl FnOnce() -> Result<T, Vec<ShownError>>,
+) -> Result<T, Vec<ShownError>> {
+    caught(read).unwrap_or_else(|sentence| Err(vec![format!("error: {sentence}").into()]))
 }
 
 impl ReadFile {
@@ -270,7 +282,7 @@ mod tests {
             studio.apply(ViewCommand::AskForRun);
             studio.apply(ViewCommand::TypePath(recording.display().to_string()));
             RequestedFile::typed(&mut studio).unwrap().read(&read()).show(&mut studio);
-            let notice = studio.viewer.notice.as_deref().unwrap().to_owned();
+            let notice = studio.viewer.notice.as_deref().unwrap_or_default().to_owned();
             (studio.deck.compared().map(Compared::tick), studio.race().tick(), notice)
         };
         let same = compare(&recorded);
@@ -350,6 +362,28 @@ mod tests {
         let Some(Dialog::Mistakes { report, .. }) = studio.viewer.dialog() else { panic!() };
         assert!(report[0].message.contains("the rule is not linear"), "{report:?}");
         assert_eq!(studio.scene().name, "mine");
+    }
+
+    #[test]
+    fn a_file_on_which_the_reader_panics_is_refused_and_the_next_one_opens() {
+        let folder = tempfile::tempdir().unwrap();
+        let [bad, good] = ["bad.toml", "good.toml"].map(|name| folder.path().join(name));
+        let text = SCENES.iter().find(|scene| scene.name == "ship").unwrap().text;
+        std::fs::write(&good, text).unwrap();
+        let (reader, fails) = (read(), bad.clone());
+        let reader: ReadScene = Arc::new(move |path: &Path| match path == fails {
+            true => panic!("index out of bounds"),
+            false => reader(path),
+        });
+        let mut studio = Studio::new(Scene::built_in("spring").unwrap());
+        RequestedFile::dropped(&studio, &bad).read(&reader).show(&mut studio);
+        let Some(Dialog::Mistakes { report, .. }) = studio.viewer.dialog() else { panic!() };
+        assert!(report[0].message.contains("index out of bounds"), "{report:?}");
+        RequestedFile::dropped(&studio, &good).read(&reader).show(&mut studio);
+        assert_eq!(
+            (studio.deck.scene_name().as_str(), studio.viewer.dialog()),
+            ("good.toml", None)
+        );
     }
 
     #[test]

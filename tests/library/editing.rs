@@ -4,7 +4,7 @@ use regatta::run::Session;
 use regatta::run::race::Mode;
 use regatta::scene::{Action, LaneId, LaneSpec, Scene};
 use regatta::sim::integrators::{GENERAL_METHODS, method};
-use regatta::studio::{RunCommand, StageCommand, Studio, ViewCommand};
+use regatta::studio::{RunCommand, StageCommand, Studio};
 
 fn stiffness(value: f64) -> Action {
     Action::Set { body: 0, parameter: 1, value }
@@ -89,14 +89,4 @@ fn a_new_scene_length_survives_a_restart_and_nonsense_is_ignored() {
     studio.apply(StageCommand::Restart);
     assert_eq!(studio.scene().seconds, 2.0 * seconds);
     assert_eq!(studio.deck.scene_as_opened().seconds, seconds);
-}
-
-#[test]
-fn escape_closes_the_inspector_before_it_quits() {
-    let mut studio = Studio::new(Scene::built_in("spring").unwrap());
-    studio.apply(RunCommand::ToggleInspector);
-    assert!(studio.display().inspector);
-    assert_eq!(studio.apply(ViewCommand::Escape), None);
-    assert!(!studio.display().inspector);
-    assert!(studio.apply(ViewCommand::Escape).is_some());
 }

@@ -1,4 +1,4 @@
-//! Verdicts are of the run on the stage: of the scene as it is edited, and from where a person last moved a body.
+//! Verdicts are of the run on the stage: of the scene as it is edited, and from the last change on.
 
 use regatta::measure::Judge;
 use regatta::scene::{Action, Scene, Scripted};
@@ -64,9 +64,13 @@ fn an_edited_parameter_gives_the_verdicts_of_the_edited_body() {
     (0..100).for_each(|_| studio.tick());
     let stiffness = parameter(studio.scene(), "stiffness_n_per_m");
     studio.apply(RunCommand::Act(Action::Set { body: 0, parameter: stiffness, value: 10_000.0 }));
-    let stiff = with(Scene::built_in("spring").unwrap(), &[("stiffness_n_per_m", 10_000.0)]);
+    let (x, v) = truth(&studio);
+    let stiff = [("stiffness_n_per_m", 10_000.0), ("x0_m", x), ("v0_m_per_s", v)];
+    let stiff = with(Scene::built_in("spring").unwrap(), &stiff);
     let after = verdicts(&mut studio);
-    assert_eq!(after, verdicts_on(&stiff));
+    // The first method flies, and is judged from its own state.
+    assert_eq!(after[1..], verdicts_on(&stiff)[1..]);
+    assert_eq!(starts_at_s(&mut studio), 100.0 / 60.0);
     assert_ne!(after, before);
 }
 
@@ -166,7 +170,9 @@ fn a_kicked_body_is_judged_from_its_true_state_after_the_kick() {
     assert_ne!(v, before);
     let kicked = Scene::built_in("spring").unwrap();
     let kicked = with(kicked, &[("x0_m", x), ("v0_m_per_s", v)]);
-    assert_eq!(verdicts(&mut studio), verdicts_on(&kicked));
+    let (after, of_truth) = (verdicts(&mut studio), verdicts_on(&kicked));
+    assert_eq!(after[1..], of_truth[1..]);
+    assert!(after[0] != of_truth[0] && after[0].contains("too wide"), "{}", after[0]);
     assert_eq!(starts_at_s(&mut studio), 130.0 / 60.0);
 }
 

@@ -14,11 +14,12 @@ fn substeps_that_look_right(adviser: &Adviser, id: &str) -> Option<u32> {
 
 const FOUR: [&str; 4] = ["semi-implicit-euler", "position-verlet", "midpoint", "implicit-midpoint"];
 
-/// Each found by another program, from the closed form of the spring and the eigenvalues of the step.
+/// Each found by another program, from the closed form of the spring and the curve through the states, which has the
+/// eigenvalues of the step.
 #[test]
 fn a_peak_within_the_first_tick_and_coarse_ticks_cost_no_substeps() {
     for (tick_hz, seconds, body, wanted) in [
-        (14, 10.0, [1.0, 100.0, 0.2, 1.0, 3.5], [3, 2, 4, 3]),
+        (14, 10.0, [1.0, 100.0, 0.2, 1.0, 3.5], [2, 2, 4, 3]),
         (18, 20.0, [0.10401, 14.5561, 0.010939, -1.628, -6.816], [2, 2, 4, 2]),
         (4, 10.0, [1.819, 99.983, 0.49197, 0.963, 11.108], [9, 5, 8, 6]),
         (25, 20.0, [0.14863, 160.576, 0.14009, -1.914, 52.289], [7, 4, 6, 4]),
@@ -33,6 +34,11 @@ fn a_peak_within_the_first_tick_and_coarse_ticks_cost_no_substeps() {
         let found = FOUR.map(|id| substeps_that_look_right(&adviser, id));
         assert_eq!(found, wanted.map(Some), "at {tick_hz} Hz: {spring}");
     }
+    // Its first peak is within the first tick: between the steps Runge-Kutta 4 misses it by 1.8 % of the widest.
+    let spring = "[[spring]]\nmass_kg = 1.2222\nstiffness_n_per_m = 21.0676\ndamping_n_s_per_m = 0.18888\n\
+                  x0_m = -1.628\nv0_m_per_s = -2.392";
+    let adviser = Adviser::new(&scene(20.0, spring), 6);
+    assert_eq!(substeps_that_look_right(&adviser, "rk4"), Some(1));
     let pendulum = "[[pendulum]]\nlength_m = 1.0\ntheta0_rad = 0.5\nomega0_rad_per_s = 0.55";
     let adviser = Adviser::new(&scene(20.0, pendulum), 4);
     let found = FOUR.map(|id| substeps_that_look_right(&adviser, id));

@@ -47,6 +47,7 @@ mod misuse;
 mod nets;
 mod own_methods;
 mod pacing_policies;
+mod pasted_rules;
 mod picture;
 mod pinned;
 mod port;

@@ -109,6 +109,31 @@ fn the_measured_card_of_own_lines_is_right() {
     }
 }
 
+/// Butcher's Runge-Kutta 5 in six stages.
+const BUTCHER_5: &str = "let a1 = a(x, v)
+let v2 = v + h / 4 * a1
+let a2 = a(x + h / 4 * v, v2)
+let v3 = v + h * (a1 / 8 + a2 / 8)
+let a3 = a(x + h * (v / 8 + v2 / 8), v3)
+let v4 = v + h * (-a2 / 2 + a3)
+let a4 = a(x + h * (-v2 / 2 + v3), v4)
+let v5 = v + h * (3 / 16 * a1 + 9 / 16 * a4)
+let a5 = a(x + h * (3 / 16 * v + 9 / 16 * v4), v5)
+let v6 = v + h * (-3 / 7 * a1 + 2 / 7 * a2 + 12 / 7 * a3 - 12 / 7 * a4 + 8 / 7 * a5)
+let a6 = a(x + h * (-3 / 7 * v + 2 / 7 * v2 + 12 / 7 * v3 - 12 / 7 * v4 + 8 / 7 * v5), v6)
+x += h / 90 * (7 * v + 32 * v3 + 12 * v4 + 32 * v5 + 7 * v6)
+v += h / 90 * (7 * a1 + 32 * a3 + 12 * a4 + 32 * a5 + 7 * a6)
+";
+
+#[test]
+fn a_runge_kutta_method_of_order_5_has_that_order_with_drag_too() {
+    let card = own_method("butcher", BUTCHER_5).unwrap();
+    assert_eq!([card.order, card.order_with_drag], [5, 5], "{}", card.about);
+    // A weight of the sum is wrong.
+    let slipped = own_method("slipped-butcher", &BUTCHER_5.replace("12 * v4 + 32", "12 * v4 + 31"));
+    assert!(slipped.unwrap().order < 2);
+}
+
 /// Runge-Kutta 4 with a slip.
 fn slipped(right: &str, wrong: &str) -> &'static Method {
     let rk4 = METHODS.iter().find(|method| method.id == "rk4").unwrap().code;

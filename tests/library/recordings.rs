@@ -587,12 +587,19 @@ fn a_recording_keeps_the_digit_keys_lanes_and_verdict_of_its_run() {
         (0..180).for_each(|_| recorded.tick());
         assert_eq!(recorded.race().state_hash(), studio.race().state_hash(), "{scene}");
         assert_eq!((ids(&recorded), recorded.active()), (ids(&studio), entry), "{scene}");
-        assert!(recorded.deck.is_judged_apart(), "its method was changed on the way");
+        for studio in [&mut recorded, &mut studio] {
+            studio.analyse();
+        }
+        let verdict =
+            |studio: &Studio| studio.viewer.verdict(entry).cloned().expect("it is judged");
+        assert_eq!(verdict(&recorded), verdict(&studio), "{scene}");
+        assert_eq!(verdict(&recorded).starts_at_s, 90.0 / 60.0, "from the switch on");
         recorded.apply(StageCommand::Pick(0));
         assert_eq!(ids(&recorded), ids(&studio), "no digit vanishes");
         recorded.apply(StageCommand::ToggleRace);
         let (raced, own) = (recorded.race().entrants().len(), studio.scene().lanes.len());
         assert_eq!(raced, own, "{scene}: as in the run that was recorded");
-        assert!(!recorded.deck.is_judged_apart());
+        recorded.analyse();
+        assert_eq!(recorded.viewer.verdict(0).map(|verdict| verdict.starts_at_s), Some(0.0));
     }
 }

@@ -44,15 +44,15 @@ const STEPPED: [&str; 7] = [
     "dt = min(dt, 0.01); y = x; if y > 0.5 and not (v < 0) { y = pow(x, 2) + hypot(x, v) }; x += (target - y) * dt",
 ];
 
-const FPS: f64 = 60.0;
+pub(crate) const FPS: f64 = 60.0;
 const FRAMES: usize = 48;
-const START: [f64; 2] = [0.25, 1.5];
-const TARGET: f64 = 2.0;
+pub(crate) const START: [f64; 2] = [0.25, 1.5];
+pub(crate) const TARGET: f64 = 2.0;
 /// The largest difference from the rule, as a part of the largest number of the run.
 const ROUNDING: f64 = 1e-12;
 
 /// x and v after each frame of a rule, from [`START`].
-fn frames(rule: &str) -> Vec<[f64; 2]> {
+pub(crate) fn frames(rule: &str) -> Vec<[f64; 2]> {
     let text = StepText::read(rule).unwrap();
     let mut registers = text.registers();
     (0..2).for_each(|index| text.set(&mut registers, index, START[index]));
@@ -63,7 +63,7 @@ fn frames(rule: &str) -> Vec<[f64; 2]> {
     (0..FRAMES).map(step).collect()
 }
 
-fn code(rule: &str, language: Language) -> RuleCode {
+pub(crate) fn code(rule: &str, language: Language) -> RuleCode {
     Rule::read(rule, FPS).unwrap().code(rule, language).unwrap()
 }
 
@@ -250,7 +250,7 @@ fn seen(rule: &str, fps: f64) -> [Option<f64>; 3] {
     [seen.hz, seen.spring.and_then(|spring| spring.damping_ratio()), seen.settles_s]
 }
 
-fn is_near(found: Option<f64>, expected: f64) -> bool {
+pub(crate) fn is_near(found: Option<f64>, expected: f64) -> bool {
     found.is_some_and(|found| (found / expected - 1.0).abs() < 1e-3)
 }
 

@@ -265,11 +265,11 @@ impl Desk {
         (self.program.processor_time() - start).as_secs_f64() / span.as_secs_f64()
     }
 
-    /// Ends the program as people do: from the loop lab, or with something to lose, at the second press.
+    /// Ends the program by the keys. The two presses of Escape answer the question with no if it was asked at once.
     #[track_caller]
     pub(crate) fn quit(mut self) {
         until("the end", || {
-            let _ = self.display.xdotool("key Escape");
+            let _ = self.display.xdotool("key Escape Escape Return");
             self.program.ended()
         });
         self.ends();

@@ -51,3 +51,24 @@ fn the_window_survives_full_screen_and_back() {
     desk.titled("Regatta - spring - Explicit Euler - 60 Hz (paused)");
     desk.quit();
 }
+
+#[test]
+fn escape_leaves_full_screen_and_then_asks_before_it_ends_the_program() {
+    let test = "escape_leaves_full_screen_and_then_asks_before_it_ends_the_program";
+    let Some(mut desk) = Desk::open(test, "--scene spring") else { return };
+    desk.press("space");
+    desk.titled("Regatta - spring - Explicit Euler - 60 Hz (paused)");
+    desk.press("F11");
+    // Without a window manager the size stays, but the program knows.
+    desk.press_and_see("f");
+    desk.press_and_see("Escape");
+    desk.press("Escape");
+    desk.still();
+    let before = desk.sight();
+    desk.press_and_see("Escape");
+    assert!(desk.sight() != before && desk.program.ended().is_none(), "it asks");
+    desk.press_and_see("Escape");
+    desk.press_and_see("Escape");
+    desk.press("Return");
+    desk.ends();
+}

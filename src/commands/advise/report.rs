@@ -2,11 +2,11 @@
 
 use serde_json::{Map, Value, json};
 
-use super::judged::{Row, best_rows, recommended_row};
+use super::judged::{Row, advised, best_rows, recommended_row};
 use crate::commands::output::table::{self, Column};
 use crate::measure::{
-    Adviser, CRITERIA, Criterion, CriterionMet, CriterionResult, MAX_ADVISED_SUBSTEPS,
-    Recommendation,
+    Adviser, CRITERIA, CriterionMet, CriterionResult, MAX_ADVISED_SUBSTEPS, Recommendation,
+    TAKEN_FOR, criterion_to_take,
 };
 use crate::scene::Scene;
 use crate::tools::source_code;
@@ -84,7 +84,7 @@ fn slowest_rates<'r>(rows: impl IntoIterator<Item = &'r Row>) -> String {
     format!("\nslowest tick rates in one step a tick, in Hz\n{}", table::text(RATES, rows, "  "))
 }
 
-/// Recommends a method for each criterion, or gives the reason why no method is recommended.
+/// Recommends one method. Before it come the criteria that no method is known to meet, with the reason.
 fn recommendations(scene: &Scene, adviser: &Adviser, rows: &[Row], wanted: usize) -> String {
     let mut text = String::new();
     if rows.len() < wanted {
@@ -93,24 +93,25 @@ fn recommendations(scene: &Scene, adviser: &Adviser, rows: &[Row], wanted: usize
     if rows.is_empty() {
         return text;
     }
-    for (i, criterion) in CRITERIA.iter().enumerate() {
-        text += &format!("at {:.3} Hz: {}: ", adviser.tick_hz(), criterion.id());
-        text += &match recommended_row(rows, i) {
-            Some((_, recommendation)) => recommendation.to_string(),
-            None => why_none(scene, rows, i),
-        };
-        text.push('\n');
+    let line = |criterion: usize, words: &str| {
+        format!("at {:.3} Hz: {}: {words}\n", adviser.tick_hz(), CRITERIA[criterion].id())
+    };
+    let take = criterion_to_take(&advised(rows));
+    for criterion in TAKEN_FOR.into_iter().take_while(|&criterion| Some(criterion) != take) {
+        text += &line(criterion, &why_none(scene, rows, criterion));
+    }
+    if let Some((criterion, (_, recommendation))) =
+        take.and_then(|it| Some((it, recommended_row(rows, it)?)))
+    {
+        text += &line(criterion, &recommendation.to_string());
     }
     text
 }
 
-/// Returns the code of the method that is recommended for `LooksRight`, or else for `Bounded`, with the number of calls
-/// per tick.
+/// Returns the code of the recommended method, with the number of calls per tick.
 fn code(adviser: &Adviser, rows: &[Row], language: Language) -> Option<String> {
-    let index = |criterion| CRITERIA.iter().position(|one| *one == criterion);
-    let wanted = [Criterion::LooksRight, Criterion::Bounded];
     let (row, Recommendation { with: met, .. }) =
-        wanted.into_iter().find_map(|criterion| recommended_row(rows, index(criterion)?))?;
+        recommended_row(rows, criterion_to_take(&advised(rows))?)?;
     let code = source_code(row.advised.spec.method, language, Precision::Double).ok()?;
     let steps = met.substeps;
     let hz = adviser.tick_hz().scaled(steps, 1);
@@ -150,6 +151,7 @@ pub(super) fn object(scene: &Scene, adviser: &Adviser, rows: &[Row], wanted: usi
         "complete": rows.len() == wanted,
         "methods": rows.iter().map(method).collect::<Vec<_>>(),
         "recommended": recommended.collect::<Map<_, _>>(),
+        "take": criterion_to_take(&advised(rows)).map(|criterion| CRITERIA[criterion].id()),
     })
 }
 

@@ -9,7 +9,7 @@ use super::physics::{PhysicsChange, first_change};
 #[cfg(feature = "view")]
 use super::pixels;
 use super::report::{DIRECTORY, Report, print_line};
-use super::{Frames, Rerun, VerifyArgs};
+use super::{Frames, Repeated, Rerun, VerifyArgs};
 use crate::commands::argument::brief;
 #[cfg(feature = "view")]
 use crate::commands::clip::record;
@@ -18,16 +18,14 @@ use crate::commands::error::Error;
 use crate::commands::error::PlaceOf;
 #[cfg(feature = "view")]
 use crate::commands::frame_folder::{FolderPolicy, FrameFolder};
-use crate::commands::frame_names::{in_the_way, is_pending};
+use crate::commands::frame_names::{frame_number, in_the_way, is_pending};
 use crate::commands::interrupt::watch_for_interrupt;
 use crate::commands::manifest::{self, FILE_NAME, Manifest, SCHEMA};
 use crate::commands::output::DirectoryLock;
-use crate::commands::state_log::StateLog;
 use crate::commands::terminal::print_status;
 use crate::commands::{scene_file, settings};
 use crate::regular_file::{self, Unreadable};
 use crate::sim::number::counted;
-use crate::studio::Studio;
 
 /// Returns a function that makes the error for a capture in `dir` that cannot be judged, from the reason.
 fn unjudged(dir: &Path) -> impl Fn(String) -> Error {
@@ -69,9 +67,9 @@ pub(super) fn judge(args: &VerifyArgs) -> Result<Report, Error> {
         false => pixels::judge(args, &rerun).map(Some),
     };
     #[cfg(not(feature = "view"))]
-    let redrawn = Ok::<Option<(Frames, (Studio, StateLog))>, Error>(None);
+    let redrawn = Ok::<Option<(Frames, Repeated)>, Error>(None);
     let run = || rerun.run(&watch_for_interrupt()).ok_or_else(Error::nothing_written);
-    let (frames, (studio, state_log), failed) = match redrawn {
+    let (frames, repeated, failed) = match redrawn {
         Ok(Some((frames, run))) => (Some(frames), run, None),
         Ok(None) => (None, run()?, None),
         // The physics is judged even if the pixels cannot be.
@@ -79,7 +77,7 @@ pub(super) fn judge(args: &VerifyArgs) -> Result<Report, Error> {
         Err(error) => return Err(error),
     };
     let mut report = Report::new(DIRECTORY, dir);
-    add_physics(&mut report, &rerun, &studio, state_log)?;
+    add_physics(&mut report, &rerun, repeated)?;
     let physics_differs = report.differing() > 0;
     match failed {
         Some(error) if !physics_differs => return Err(error),
@@ -104,13 +102,9 @@ pub(super) fn judge(args: &VerifyArgs) -> Result<Report, Error> {
     Ok(report)
 }
 
-fn add_physics(
-    report: &mut Report,
-    rerun: &Rerun,
-    studio: &Studio,
-    state_log: StateLog,
-) -> Result<(), Error> {
-    let Some(change) = first_change(&rerun.manifest, studio, state_log) else {
+fn add_physics(report: &mut Report, rerun: &Rerun, repeated: Repeated) -> Result<(), Error> {
+    let Repeated { studio, state_log, moment } = repeated;
+    let Some(change) = first_change(&rerun.manifest, &studio, state_log, moment) else {
         let lanes = counted(studio.race().entrants().len(), "lane");
         print_line(&format!("physics: same to the bit: {lanes} to tick {}", studio.race().tick()))?;
         report.judged("physics", None);
@@ -145,10 +139,17 @@ fn add_pixels(report: &mut Report, rerun: &Rerun, frames: Option<Frames>) -> Res
         }
         report.judged(&entry.file, difference);
     }
+    for file in unlisted(&report.path, frames) {
+        let what = "no frame of the manifest has this name; move it away".to_owned();
+        print_line(&format!("pixels: {file}: {what}"))?;
+        changes.push(json!({ "file": file, "what": what }));
+        report.judged(file, Some(what));
+    }
     let all = counted(frames, "frame");
     print_line(&match (changes.len(), are_exact) {
         (0, true) => format!("pixels: same: {all}, every pixel"),
         (0, false) => format!("pixels: same within the limits: {all}"),
+        (changed, _) if changed > frames => format!("pixels: {changed} differ, of {all}"),
         (changed, _) => {
             format!("pixels: {changed} of {all} {}", if frames == 1 { "differs" } else { "differ" })
         }
@@ -156,6 +157,16 @@ fn add_pixels(report: &mut Report, rerun: &Rerun, frames: Option<Frames>) -> Res
     let same = changes.is_empty();
     report.field("pixels", json!({ "same": same, "frames": frames, "differences": changes }));
     Ok(())
+}
+
+/// Returns the names of frames in `dir` that a manifest of `frames` frames does not list.
+fn unlisted(dir: &Path, frames: usize) -> Vec<String> {
+    let entries = std::fs::read_dir(dir).into_iter().flatten().flatten();
+    let names = entries.filter_map(|entry| entry.file_name().into_string().ok());
+    let is_beyond = |name: &String| frame_number(name).is_some_and(|n| n as usize >= frames);
+    let mut found: Vec<String> = names.filter(is_beyond).collect();
+    found.sort();
+    found
 }
 
 /// Draws the capture in `dir` again, and replaces the old one once the new one is complete.

@@ -1,8 +1,13 @@
 //! Compares the states of a run with the marks in a manifest.
 
-use super::super::manifest::{LaneEnd, LaneMark, Manifest, Mark};
+use std::fmt::Display;
+
+use serde_json::{Map, Value};
+
+use super::super::manifest::{FrameEntry, LaneEnd, LaneMark, Manifest, Mark};
 use super::super::state_log::{self, StateLog};
 use crate::run::diff::is_same_number;
+use crate::scene::clip;
 use crate::studio::Studio;
 
 /// The first mark of a run that differs from the manifest.
@@ -14,11 +19,12 @@ pub(super) struct PhysicsChange {
 }
 
 /// Returns the first mark in which the run differs from the manifest, or else the first lane that ended differently.
-/// The studio must be at the end of the run.
+/// The studio must be at the end of the run. `moment` is the first frame whose moment differs, with its tick.
 pub(super) fn first_change(
     manifest: &Manifest,
     studio: &Studio,
     state_log: StateLog,
+    moment: Option<(u64, String)>,
 ) -> Option<PhysicsChange> {
     let now = state_log.close(studio.race());
     let mut marks = manifest.marks.iter().zip(&now);
@@ -26,9 +32,10 @@ pub(super) fn first_change(
         .find_map(|(then, now)| change(then, now, studio))
         .or_else(|| other_length(&manifest.marks, &now))
         .or_else(|| other_end(&manifest.lanes, studio))
+        .or_else(|| moment.map(|(tick, what)| PhysicsChange { tick, lane: None, what }))
 }
 
-/// Returns the first difference in how the lanes ended, if there is one. Metrics are not compared.
+/// Returns the first difference in how the lanes ended, if there is one.
 fn other_end(then: &[LaneEnd], studio: &Studio) -> Option<PhysicsChange> {
     let tick = studio.race().tick();
     let now = state_log::ends(studio);
@@ -47,12 +54,46 @@ fn other_end(then: &[LaneEnd], studio: &Studio) -> Option<PhysicsChange> {
                 ("halt", halt(then), halt(now)),
             ]
             .into_iter()
+            .map(|(key, was, is)| (key.to_owned(), was, is))
+            .chain(body_values(then, now))
             .find(|(_, was, is)| was != is)?;
             let what = format!("its {key} at the end is {was} in the manifest and {is} now");
             let method = entrant.spec.method.id;
             Some(PhysicsChange { tick, lane: Some((n + 1, method)), what })
         },
     )
+}
+
+/// Returns the name, the halt and the metrics of each body at the end, with the value of the manifest and that of now.
+fn body_values(then: &LaneEnd, now: &LaneEnd) -> Vec<(String, String, String)> {
+    let count = then.bodies.len().max(now.bodies.len());
+    let none = Map::new();
+    let of = |n: usize| {
+        let [then, now] = [then, now].map(|end| end.bodies.get(n).unwrap_or(&none));
+        let keys = then.keys().chain(now.keys().filter(|key| !then.contains_key(*key)));
+        let shown = |body: &Map<String, Value>, key: &str| {
+            body.get(key).map_or("missing".to_owned(), |value| clip(&value.to_string()))
+        };
+        let values = keys.filter(|key| then.get(*key) != now.get(*key));
+        let named = |key: &String| {
+            (format!("bodies[{n}].{}", clip(key)), shown(then, key), shown(now, key))
+        };
+        values.map(named).collect::<Vec<_>>()
+    };
+    (0..count).flat_map(of).collect()
+}
+
+/// Describes how the moment of a frame differs from that in the manifest, if it does.
+pub(super) fn other_moment(then: &FrameEntry, tick: u64, alpha: (u64, u64)) -> Option<String> {
+    let is = [alpha.0, alpha.1];
+    let said = |key, was: &dyn Display, is: &dyn Display| {
+        Some(format!("its {key} is {was} in the manifest and {is} now"))
+    };
+    match (then.tick == tick, then.alpha == is) {
+        (false, _) => said("tick", &then.tick, &tick),
+        (_, false) => said("alpha", &format!("{:?}", then.alpha), &format!("{is:?}")),
+        _ => None,
+    }
 }
 
 /// Returns the first difference between two marks, if there is one.

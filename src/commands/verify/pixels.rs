@@ -3,7 +3,8 @@
 use std::fmt::{self, Display, Formatter};
 use std::fs;
 
-use super::{Frames, Rerun, VerifyArgs};
+use super::physics::other_moment;
+use super::{Frames, Repeated, Rerun, VerifyArgs};
 use crate::atomic_file::IfExists;
 use crate::commands::argument::brief;
 use crate::commands::drawing::{adapter, interrupted_after};
@@ -14,11 +15,9 @@ use crate::commands::manifest::{Adapter, FILE_NAME, FrameEntry, Manifest, finger
 use crate::commands::output::begin_file;
 use crate::commands::pipeline::{DrawnFrame, Pipeline};
 use crate::commands::schedule::Schedule;
-use crate::commands::state_log::StateLog;
 use crate::commands::terminal::print_status;
 use crate::regular_file;
 use crate::sim::number::counted;
-use crate::studio::Studio;
 use crate::view::{PixelDifference, PixelLimits, PreparedFrame, png};
 
 /// Maximum number of bytes per pixel in a picture file, which has up to four channels of 16 bits.
@@ -75,12 +74,8 @@ impl Display for Limits {
     }
 }
 
-/// Draws every frame of the capture again, and compares it with its file. Also returns the studio at the end, and the
-/// log of its states.
-pub(super) fn judge(
-    args: &VerifyArgs,
-    rerun: &Rerun,
-) -> Result<(Frames, (Studio, StateLog)), Error> {
+/// Draws every frame of the capture again, and compares it with its file. Also returns the repeated run.
+pub(super) fn judge(args: &VerifyArgs, rerun: &Rerun) -> Result<(Frames, Repeated), Error> {
     let Rerun { manifest, capture, .. } = rerun;
     check_differences(args, manifest)?;
     let cannot = |error: Error| error.or_mistake().within("the pixels cannot be judged");
@@ -104,6 +99,7 @@ pub(super) fn judge(
     let compare = |drawn: &DrawnFrame, prepared: &PreparedFrame| {
         let entry = &manifest.frames[drawn.frame as usize];
         compare(entry, capture.size_px, (&drawn.rgba, prepared), limits, args)
+            .or_else(|| other_moment(entry, drawn.tick, drawn.alpha))
     };
     let drawn = run.draw_all(&interrupted, compare, |_, difference| {
         differences.push(difference);
@@ -114,7 +110,7 @@ pub(super) fn judge(
         return Err(cannot(interrupted_after(done, frames, "nothing is written")));
     }
     let are_exact = limits.of_pixels.are_exact();
-    Ok((Frames { are_exact, differences }, (studio, state_log)))
+    Ok((Frames { are_exact, differences }, Repeated { studio, state_log, moment: None }))
 }
 
 /// Creates the directory for pictures of differences, if one is requested. Fails if a picture would replace a foreign
@@ -147,9 +143,9 @@ fn compare(
     let path = args.dir.join(&entry.file);
     let [width, height] = size_px.map(|px| px as usize);
     let max_bytes = BYTES_PER_PIXEL * width * height + MAX_NOTES_BYTES;
-    let then = match regular_file::read(&path, max_bytes) {
+    let (then, is_whole) = match regular_file::read(&path, max_bytes) {
         Ok(file) => match image::load_from_memory(&file) {
-            Ok(picture) => picture.into_rgba8(),
+            Ok(picture) => (picture.into_rgba8(), png::is_whole(&file)),
             Err(error) => return Some(format!("cannot be decoded: {error}")),
         },
         Err(error) if error.is_missing() => return Some("is missing".into()),
@@ -167,7 +163,8 @@ fn compare(
         })
     };
     if limits.allow(&difference, only_letters_differ) && !was_altered {
-        return None;
+        let what = "its pixels are the same, but the file is cut, or goes on after its end";
+        return (!is_whole).then(|| what.to_owned());
     }
     let (off, worst) = (difference.beyond(0), difference.worst());
     let mut what = format!("{} off, the worst by {worst}", counted(off, "pixel"));

@@ -23,6 +23,9 @@ use crate::studio::Studio;
 /// body.
 const MAX_TICKS: u64 = 100_000_000;
 
+/// Number of ticks of a race above which its length is reported before it runs.
+const LONG_TICKS: u64 = 1_000_000;
+
 /// The verdict on a lane.
 #[derive(Clone, Debug, PartialEq)]
 struct JudgedLane {
@@ -180,6 +183,12 @@ pub(in crate::commands) fn end_of(path: &Path, scene: &Scene) -> Result<u64, Err
 /// if that would take too long.
 fn check_ticks(path: &Path, scene: &Scene) -> Result<(), Error> {
     refuse_late_checks(path, scene)?;
+    let last = scene.checks.iter().map(|check| check.tick).max().unwrap_or(0);
+    if last > LONG_TICKS {
+        print_status(&format!(
+            "the race runs {last} ticks, which can take minutes; Ctrl-C ends it"
+        ));
+    }
     let end = Studio::new(scene.clone()).race().nearest_tick(scene.seconds);
     let late = scene.checks.iter().map(|check| check.tick).filter(|tick| *tick > end);
     let Some(last) = late.clone().max() else { return Ok(()) };
@@ -225,7 +234,7 @@ pub(super) fn bless(path: &Path) -> Result<(), Error> {
 }
 
 /// Returns checks for a scene that has none. They cover every lane once a second and at the end.
-pub(in crate::commands) fn checks_of(path: &Path, scene: &Scene) -> Result<Vec<Check>, Error> {
+fn checks_of(path: &Path, scene: &Scene) -> Result<Vec<Check>, Error> {
     let last = end_of(path, scene)?;
     Ok(Session::racing(scene.clone().into()).recording(last).checks)
 }

@@ -11,6 +11,7 @@ use crate::commands::error::{Error, PlaceOf};
 use crate::commands::frame_names::not_ours;
 use crate::commands::output::{Destination, Input, Output, print};
 use crate::commands::scene_file::name_in_messages;
+use crate::commands::visible::shortened;
 use crate::regular_file;
 
 /// The format of a file that holds the result.
@@ -81,7 +82,7 @@ fn is_report(path: &Path) -> bool {
 /// The result of a command. Each line that is added also goes to standard output at once.
 #[derive(Debug)]
 pub(super) struct Report {
-    path: PathBuf,
+    pub(super) path: PathBuf,
     /// Name of each judged case, and the difference in it, if there is one.
     cases: Vec<(String, Option<String>)>,
     /// JSON fields besides those that all reports have.
@@ -161,7 +162,7 @@ impl Report {
 
 /// Prints a line to standard output.
 pub(super) fn print_line(line: &str) -> Result<(), Error> {
-    match print(format!("{line}\n")) {
+    match print(format!("{}\n", shortened(line))) {
         // The command still ends with its exit code if the reader has closed the pipe.
         Err(error) if error.is_closed_pipe() => Ok(()),
         printed => printed,

@@ -29,7 +29,7 @@ fn text_contrasts_with_its_background_in_both_themes() {
         let texts =
             [palette.text, palette.dim, palette.accent, palette.bad, palette.warn, palette.good];
         for surface in surfaces {
-            for text in texts.iter().chain(&palette.methods) {
+            for text in texts.iter().chain(&palette.methods).chain(&palette.loops) {
                 let contrast = contrast(*text, surface);
                 assert!(contrast >= 4.5, "{theme:?}: {text:?} on {surface:?}: {contrast:.2}");
             }
@@ -154,7 +154,7 @@ fn methods_differ_in_colour_or_dash_and_neighbours_in_colour() {
             let [a, b] = [&pair[0], &pair[1]].map(|method| theme.style(method).0);
             assert!(distance(a, b) > 40 * 40, "{} and {}: {a:?} {b:?}", pair[0].id, pair[1].id);
         }
-        for number in 0..2 * LOOPS.len() {
+        for number in 0..2 * theme.palette().loops.len() {
             let [a, b] = [number, number + 1].map(|number| theme.loop_style(number).0);
             assert!(distance(a, b) > 60 * 60, "{number}: {a:?} {b:?}");
         }
@@ -167,6 +167,17 @@ fn methods_differ_in_colour_or_dash_and_neighbours_in_colour() {
             let [a, b] =
                 lanes.map(|id| theme.style(crate::sim::integrators::method(id).unwrap()).0);
             assert!(distance(a, b) > 60 * 60, "{lanes:?}");
+        }
+    }
+}
+
+#[test]
+fn no_loop_has_the_colour_of_a_method() {
+    for theme in [Theme::Dark, Theme::Light] {
+        let Palette { methods, loops, .. } = theme.palette();
+        for (method, of_loop) in methods.iter().flat_map(|a| loops.iter().map(move |b| (a, b))) {
+            let away = distance_seen(*method, *of_loop, MOST_PEOPLE);
+            assert!(away > 20.0, "{theme:?}: {method:?} and {of_loop:?} are {away} apart");
         }
     }
 }

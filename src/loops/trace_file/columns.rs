@@ -53,6 +53,31 @@ const TIMES: [(&str, f64, bool); 3] =
 /// Columns that only MangoHud writes.
 const OF_MANGOHUD: [&str; 3] = ["elapsed", "cpu_load", "gpu_load"];
 
+/// Columns that several tools write, besides those of the tables above.
+#[cfg(feature = "serde")]
+const OTHERS: [&str; 6] =
+    ["MsUntilDisplayed", "Dropped", "FrameType", "SwapChainAddress", "fps", "MsBetweenPresents"];
+
+/// Returns the name of each column by which a log is read, except those of its program.
+#[cfg(feature = "serde")]
+pub(super) fn known_names() -> impl Iterator<Item = &'static str> {
+    let formats = FORMATS.iter().flat_map(|(_, _, began, beside)| match beside {
+        CompanionColumn::Until(name)
+        | CompanionColumn::Display(name)
+        | CompanionColumn::Other(name) => [*began, *name],
+        CompanionColumn::Nothing => [*began; 2],
+    });
+    let tools = OF_PRESENTMON.iter().map(|(name, _)| *name).chain(OF_MANGOHUD);
+    let all = formats.chain(tools).chain(TIMES.iter().map(|(name, ..)| *name)).chain(OTHERS);
+    let mut known = Vec::new();
+    all.flat_map(|name| [Some(name), name.strip_prefix("Ms")]).flatten().filter(move |name| {
+        !known.contains(name) && {
+            known.push(*name);
+            true
+        }
+    })
+}
+
 /// The column that is expected beside a column of frame times.
 enum CompanionColumn {
     /// The column of the times from each frame to its own display, in a log without a column of dropped frames.

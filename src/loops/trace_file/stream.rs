@@ -85,8 +85,7 @@ impl Stream {
     /// Adds the frame of a row. A generated frame only lets time pass, because the program's loop has no part in it.
     pub(super) fn push(&mut self, cells: &Cells) -> Result<(), Fault> {
         if cells.is_generated {
-            self.skip_generated_frame(cells);
-            return Ok(());
+            return self.skip_generated_frame(cells);
         }
         let frame = match cells.span {
             Span::Before => self.after_the_last(cells)?,
@@ -112,18 +111,22 @@ impl Stream {
     }
 
     /// Lets the times of a generated frame pass. The beginning of such a frame may be unknown.
-    fn skip_generated_frame(&mut self, cells: &Cells) {
-        let (began, shown) = (cells.began_ns.as_ref().copied().unwrap_or(0), cells.displayed_ns);
-        match cells.span {
+    fn skip_generated_frame(&mut self, cells: &Cells) -> Result<(), Fault> {
+        let began = cells.began_ns.as_ref().copied().unwrap_or(0);
+        let shown = cells.displayed_ns.unwrap_or(0);
+        let latest_ns = match cells.span {
             Span::Before => {
                 self.generated_ns += began;
-                self.last_shown_ns = self.last_shown_ns.map(|last| last + shown.unwrap_or(0));
+                self.last_shown_ns = self.last_shown_ns.map(|last| last + shown);
+                self.generated_ns.max(self.last_shown_ns.unwrap_or(0))
             }
             Span::After => {
                 self.next_began_ns = self.next_began_ns.clone().map(|next| next + began);
-                self.next_shown_ns += shown.unwrap_or(0);
+                self.next_shown_ns += shown;
+                self.next_shown_ns.max(self.next_began_ns.as_ref().copied().unwrap_or(0))
             }
-        }
+        };
+        if latest_ns > YEAR_NS { Err(Fault::TooLong) } else { Ok(()) }
     }
 
     fn after_the_last(&self, cells: &Cells) -> Result<Frame, Fault> {

@@ -133,3 +133,48 @@ fn advice_on_each_built_in_scene_takes_the_recorded_work() {
         assert!((0.8..1.2).contains(&(found / wanted)), "{name}: {found} million, not {wanted}");
     }
 }
+
+/// An undamped swing grows under explicit Euler at any step, and a damped one from hω = 2ζ on.
+#[test]
+fn of_forty_springs_none_is_advised_explicit_euler_or_a_smaller_reserve_of_equal_cost() {
+    let mut compared = 0;
+    for frequency_hz in [0.5, 0.8, 1.0, 1.5, 2.0, 3.0, 4.0, 5.0] {
+        for damping_ratio in [0.0, 0.1, 0.3, 0.6, 1.0] {
+            let omega = std::f64::consts::TAU * frequency_hz;
+            let text = format!(
+                "title = 't'\ntick_hz = 60\nseconds = 4\n[[spring]]\nmass_kg = 1\nstiffness_n_per_m = {}\n\
+                 damping_n_s_per_m = {}\nx0_m = 1",
+                omega * omega,
+                2.0 * damping_ratio * omega
+            );
+            let scene = Scene::parse("t", &text).unwrap();
+            let adviser = Adviser::new(&scene, 60);
+            // A more expensive method cannot come before one of these at equal cost.
+            let methods = scene.methods_for_games().filter(|it| it.evaluations == Some(1));
+            let mut advised: Vec<_> =
+                methods.map(|it| adviser.judged(LaneSpec::plain(it))).collect();
+            adviser.search_until_decided(&mut advised);
+            for criterion in 0..CRITERIA.len() {
+                let Some(best) = recommended(&advised, criterion) else { continue };
+                let of = |row: usize| {
+                    let met = advised[row].met[criterion].met()?;
+                    Some((advised[row].spec.method.id, met.cost_per_s, met.reserve()))
+                };
+                let (id, cost, reserve) = of(best).unwrap();
+                for (other, other_cost, other_reserve) in (0..advised.len()).filter_map(of) {
+                    let told = format!("{frequency_hz} Hz, {damping_ratio}: {id} before {other}");
+                    assert!(id != "explicit-euler" || other == id || other_cost > cost, "{told}");
+                    if other_cost == cost && other != "explicit-euler" && other != id {
+                        compared += 1;
+                        assert!(reserve >= other_reserve, "{told}: {reserve:?}, {other_reserve:?}");
+                    }
+                }
+            }
+            let euler = advised.iter().find(|row| row.spec.method.id == "explicit-euler").unwrap();
+            let is_stable = omega / 60.0 < 2.0 * damping_ratio;
+            let with_one = euler.met[0].met().is_some_and(|met| met.substeps == 1);
+            assert_eq!(with_one, is_stable, "{frequency_hz} Hz, {damping_ratio}");
+        }
+    }
+    assert!(compared > 100, "{compared}");
+}

@@ -75,12 +75,17 @@ pub(super) struct Request<'a> {
 impl CloudRequest {
     /// Whether both requests are for the same run of clouds, at any tick.
     pub fn is_alike(&self, other: &Self) -> bool {
+        self.is_of_one_run(other) && self.choice.points == other.choice.points
+    }
+
+    /// Whether both requests are for the same run of clouds, at any tick and with any number of points.
+    pub fn is_of_one_run(&self, other: &Self) -> bool {
         Arc::ptr_eq(&self.scene, &other.scene)
             && self.changes == other.changes
             && self.body == other.body
             && self.lanes == other.lanes
             && self.tick_hz == other.tick_hz
-            && self.choice == other.choice
+            && self.choice.kind == other.choice.kind
     }
 
     /// Returns the tick of the clouds.

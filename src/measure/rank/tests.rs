@@ -34,10 +34,18 @@ fn first(costs: &[(f64, f64)]) -> Option<usize> {
 
 #[test]
 fn equal_costs_rank_by_reserve_and_then_by_table_order() {
-    assert_eq!(first(&[(60.0, 1.6), (60.0, 10.0)]), Some(1));
-    assert_eq!(first(&[(60.0, 10.0), (60.0, 10.0)]), Some(0));
+    let unmet = (1e9, 1.0);
+    assert_eq!(first(&[unmet, (60.0, 1.6), (60.0, 9.0)]), Some(2));
+    assert_eq!(first(&[unmet, (60.0, 9.0), (60.0, 9.0)]), Some(1));
     assert_eq!(first(&[(60.0, 1.6), (61.0, 10.0)]), Some(0), "the cost comes before the reserve");
     assert_eq!(first(&[]), None);
+}
+
+#[test]
+fn explicit_euler_comes_after_every_method_of_equal_cost() {
+    assert_eq!(first(&[(60.0, 9.0), (60.0, 1.1)]), Some(1), "whatever the reserves");
+    assert_eq!(first(&[(60.0, 9.0), (61.0, 9.4)]), Some(0), "it is the cheapest");
+    assert_eq!(first(&[(60.0, 9.0), (60.0, 1.1), (120.0, 2.0)]), Some(2));
 }
 
 #[test]
@@ -62,10 +70,10 @@ fn margins_are_searched_only_until_the_first_place_is_known() {
     // Each row has the costs and reserves to be found, the recommended method, and the methods whose margins are
     // searched.
     for (all, wanted, searched) in [
-        (&[(60.0, 2.0), (60.0, 3.0), (61.0, 10.0)][..], 1, &[0, 1][..]),
-        (&[(60.0, 10.0), (60.0, 10.0), (60.0, 10.0)], 0, &[0]),
-        (&[(60.0, 9.4), (60.0, 10.0), (60.0, 10.0)], 1, &[0, 1, 2]),
-        (&[(60.0, 1.4), (60.0, 1.2), (100.0, 2.0), (110.0, 9.0)], 2, &[0, 1, 2]),
+        (&[(60.0, 2.0), (60.0, 3.0), (61.0, 10.0)][..], 1, &[1][..]),
+        (&[(60.0, 9.0), (60.0, 9.0), (60.0, 9.0)], 1, &[1, 2]),
+        (&[(60.0, 9.4), (60.0, 9.0), (60.0, 9.4)], 2, &[1, 2]),
+        (&[(60.0, 1.4), (60.0, 1.2), (100.0, 2.0), (110.0, 9.0)], 2, &[1, 2]),
         (&[(60.0, 1.4), (100.0, 1.3), (110.0, 1.2), (121.0, 9.0)], 0, &[0, 1, 2]),
         (&[(60.0, 1.1), (100.0, 1.3), (200.0, 1.7), (300.0, 9.0)], 2, &[0, 1, 2]),
     ] {
@@ -100,7 +108,9 @@ fn a_reserve_is_the_lesser_margin_and_a_rate_counts_by_its_square() {
     assert_eq!(of(4, Some(4), Some(1.6)), Some(1.0));
     assert_eq!(of(4, Some(3), Some(3.0)), Some(1.7));
     assert_eq!(of(1, Some(1), Some(3.0)), Some(3.0));
-    assert_eq!(of(60, Some(1), None), Some(10.0));
+    assert_eq!(of(60, Some(1), None), Some(3600.0), "no limit of the search");
+    assert_eq!(of(60, Some(4), Some(10.0)), Some(225.0), "a stiffness that was not found");
+    assert_eq!(of(60, None, Some(10.0)), Some(10.0));
     assert_eq!(of(60, None, Some(2.0)), Some(2.0));
     assert_eq!(of(60, None, None), None);
     // From a fractional rate, the search starts at the next whole rate above.

@@ -1,8 +1,8 @@
 //! The exact wording of verdicts.
 
 use crate::measure::{
-    Comparison, Finding, LongTerm, Measure, NoTruth, NotJudged, RunFailure, Severity, TOLERANCE,
-    Trend, Verdict,
+    Comparison, Finding, LongTerm, Measure, NoTruth, NotJudged, RunFailure, Severity, SwingWidths,
+    TOLERANCE, Trend, Verdict,
 };
 use crate::sim::integrators::StepFailure;
 
@@ -14,6 +14,7 @@ const COMPARED: Comparison = Comparison {
     change: Trend::None,
     looks_right: Some(false),
     width: Some(1.0),
+    widths: None,
     early_s: None,
     energy_change: None,
     energy_drift_percent: None,
@@ -62,7 +63,11 @@ fn a_wrong_width_of_the_swing_is_named_in_the_verdict() {
     let off = "off by up to 281 % at 3 s, by 20 % after 20 s";
     for (width, shown) in [
         (1.8, "bounded · swings 1.8 × too wide"),
-        (0.7, "bounded · swings 0.70 × as wide"),
+        (1.5, "bounded · swings 1.5 × too wide"),
+        (1.499, "bounded · swings 50 % too wide"),
+        (1.053, "bounded · swings 5.3 % too wide"),
+        (0.7, "bounded · swings 30 % too narrow"),
+        (0.5, "bounded · swings 0.50 × as wide"),
         (1.04, "bounded · off by 281 % at 3 s"),
     ] {
         let found = Comparison {
@@ -80,14 +85,22 @@ fn a_wrong_width_of_the_swing_is_named_in_the_verdict() {
 }
 
 #[test]
-fn every_wording_names_its_run_beside_an_edited_run() {
-    let found = compared(Comparison { early_s: Some(0.02), ..COMPARED });
-    for (starts_at_s, from) in [(0.0, "if run from the start: "), (3.0, "if run from 3 s: ")] {
-        let verdict = Verdict { starts_at_s, ..found.clone() };
-        let wordings = verdict.wordings_of_another_run(true);
-        let said = ["bounded · 20 ms early after 20 s", "bounded"];
-        assert_eq!(wordings, said.map(|words| format!("{from}{words}")));
-    }
+fn a_lane_that_begins_off_the_truth_is_named_by_both_widths() {
+    let widths = |own, unit| Some(SwingWidths { own, truth: 1.0, unit });
+    let of =
+        |own: f64, unit| Comparison { width: Some(own), widths: widths(own, unit), ..COMPARED };
+    let bounded = compared(of(2.04, "m"));
+    assert_eq!(bounded.wordings(true), ["stays ±2.04 m (exact ±1)", "bounded"]);
+    assert_eq!(compared(of(0.4, "")).to_string(), "stays ±0.4 (exact ±1)");
+    let number = bounded.number().expect("a width");
+    assert_eq!((&*number.quantity, number.value, number.unit), ("width", 2.04, "×"));
+    let grows = LongTerm { doubles_in_s: Some(2.1), is_bounded: Some(false), ..SWINGS };
+    let found = Comparison { change: Trend::Grows, ..of(2.04, "m") };
+    let grows = Verdict { long_term: grows, ..compared(found) };
+    assert_eq!(grows.to_string(), "grows · swing ×2 in 2.1 s");
+    assert_eq!(grows.details()[0], "already 2.0 × too wide");
+    let right = Comparison { looks_right: Some(true), early_s: Some(0.02), ..of(1.04, "m") };
+    assert_eq!(compared(right).to_string(), "looks right · 20 ms early after 20 s");
 }
 
 #[test]
@@ -191,16 +204,11 @@ fn a_verdict_shows_the_number_of_its_outcome_and_details_show_the_rest() {
     let escaped = StepFailure::NotFinite { coordinate: "x".into(), value: f64::NAN };
     let unsolved = StepFailure::LinearSolveFailed;
     let long_term = LongTerm { parasite_doubles_in_s: Some(7.0), ..doubling };
-    let start = "if run from the start";
-    is(
-        Verdict { long_term, ..of(failed(&escaped)) },
-        "blows up · at 4 s",
-        &[start, &escaped.to_string()],
-    );
+    is(Verdict { long_term, ..of(failed(&escaped)) }, "blows up · at 4 s", &[&escaped.to_string()]);
     is(
         Verdict { long_term, ..of(failed(&unsolved)) },
         "gives up · at 4 s",
-        &[start, &unsolved.to_string(), "its swing doubles in 90 s"],
+        &[&unsolved.to_string(), "its swing doubles in 90 s"],
     );
 
     let without = |why| of(Finding::NoTruth(why));

@@ -2,13 +2,13 @@
 
 use std::fmt;
 
-use super::{Comparison, Finding, LongTerm, NoTruth, NotJudged, Verdict};
+use super::{Comparison, Finding, LongTerm, NoTruth, NotJudged, SwingWidths, Verdict};
 use crate::measure::amplitude::Measure;
 use crate::measure::chase_finding::ChaseFinding;
 use crate::measure::criterion::{TOLERANCE, VISIBLE};
 use crate::measure::energy_finding::EnergyFinding;
 use crate::measure::outcome::Outcome;
-use crate::sim::number::{duration, in_unit, significant, superscript};
+use crate::sim::number::{duration, in_unit, round, significant, superscript};
 
 /// Largest relative frequency error that is too small to cause anything.
 const FAINT_PITCH: f64 = 1e-4;
@@ -16,6 +16,9 @@ const FAINT_PITCH: f64 = 1e-4;
 /// Longest plausible halving time, in horizons. A swing that visibly dies away within the horizon, by at least 5 %,
 /// halves within 13.5 horizons at a constant rate. A longer halving time belongs to something else.
 const MOST_HALVING_HORIZONS: f64 = 20.0;
+/// Width of a swing, relative to the true one, from which on it is written as a multiple.
+const MULTIPLE: f64 = 1.5;
+
 /// Energy change at or below which nothing visible is left, in units of the largest kinetic energy.
 const ALL_ENERGY: f64 = -0.995;
 
@@ -78,6 +81,12 @@ impl Comparison {
             .then(|| format!("{} {how}", percent(error.abs())))
     }
 
+    /// Describes the width of a lane that was not in the true state at the start, if it is wrong.
+    fn already(&self) -> Option<String> {
+        let widths = self.widths.filter(|_| self.wrong_width().is_some())?;
+        Some(format!("already {}", too_wide(widths.own / widths.truth)))
+    }
+
     /// Returns the largest width of the swing relative to the true one, if the difference is visible.
     fn wrong_width(&self) -> Option<f64> {
         self.width.filter(|width| (width - 1.0).abs() > VISIBLE)
@@ -88,19 +97,6 @@ impl Verdict {
     /// Returns the time of the run that is `seconds` after the judged part begins, in words.
     fn moment(&self, seconds: f64) -> String {
         duration(self.starts_at_s + seconds)
-    }
-
-    /// Describes the start of the judged run in words.
-    fn start(&self) -> String {
-        match self.starts_at_s {
-            0.0 => "the start".to_owned(),
-            seconds => duration(seconds),
-        }
-    }
-
-    /// Returns a brief statement that the lane fails, and from which start, if the lane fails.
-    pub(crate) fn fails_in_brief(&self) -> Option<String> {
-        self.failure().map(|_| format!("{}, if run from {}", self.word(), self.start()))
     }
 
     /// Whether nothing grows on the verdict's own body. With several bodies, `long_term` is about all of them.
@@ -122,7 +118,10 @@ impl Verdict {
     fn change(&self, time: Option<f64>, [factor, verb]: [&str; 2]) -> VerdictNumber {
         let horizon = duration(self.horizon_s);
         let measure = self.long_term.measure.name();
-        match (time, self.energy_change()) {
+        // The energy of a swing varies within a turn, so that at the end it may be on the other side.
+        let grows = self.outcome() == Outcome::Grows;
+        let change = self.energy_change().filter(|&change| (change > 0.0) == grows);
+        match (time, change) {
             (Some(time), _) => {
                 let text = format!("{measure} {factor} in {}", brief_duration(time));
                 VerdictNumber::new(format!("{measure} {verb}"), time, "s", text)
@@ -147,8 +146,10 @@ impl Verdict {
     fn gap(&self, found: &Comparison) -> VerdictNumber {
         let (error, horizon) = (percent(found.error), duration(self.horizon_s));
         if let Some(width) = found.wrong_width().filter(|_| found.looks_right != Some(true)) {
-            let how = if width > 1.0 { "too wide" } else { "as wide" };
-            let text = format!("swings {} × {how}", significant(width, 2));
+            let text = match found.widths {
+                Some(widths) => widths.to_string(),
+                None => format!("swings {}", too_wide(width)),
+            };
             return VerdictNumber::new("width", width, "×", text);
         }
         if let Some(early_s) = found.early_s {
@@ -214,8 +215,8 @@ impl Verdict {
                 Some(VerdictNumber::new("end of the run", self.starts_at_s + failure.t, "s", text))
             }
             (_, Finding::ByEnergy(found)) => {
-                let text = found.number()?;
-                Some(VerdictNumber::part("energy change", found.change.abs(), text))
+                let (percent, text) = found.number()?;
+                Some(VerdictNumber::new("energy change", percent, "%", text))
             }
             (_, Finding::NoTruth(NoTruth::Vague(part))) if part.is_finite() => {
                 Some(VerdictNumber::part(
@@ -234,7 +235,12 @@ impl Verdict {
             Finding::NotJudged(why) => Some(why.to_string()),
             _ => self.number().map(|number| number.text),
         };
-        let words = [Some(self.word().to_owned()), number];
+        let says_widths = self.outcome() == Outcome::Bounded
+            && self
+                .comparison()
+                .is_some_and(|found| found.widths.is_some() && found.wrong_width().is_some());
+        let word = (!says_widths).then(|| self.word().to_owned());
+        let words = [word, number];
         words.into_iter().flatten().collect::<Vec<_>>().join(BETWEEN)
     }
 
@@ -257,8 +263,8 @@ impl Verdict {
         });
         let faint = parasite_doubles_in_s.filter(|_| outcome <= Outcome::Grows);
         [
-            self.failure().map(|_| format!("if run from {}", self.start())),
             self.failure().map(|failure| failure.cause.to_string()),
+            self.comparison().filter(|_| outcome > Outcome::Bounded).and_then(Comparison::already),
             self.comparison().and_then(|found| self.error_over_time(found)),
             self.comparison().and_then(Comparison::pitch),
             growth,
@@ -296,13 +302,6 @@ impl Verdict {
         self.words() + &self.in_brackets(is_named)
     }
 
-    /// Returns ever shorter wordings that name the start of the judged run. They appear beside a run that a person
-    /// changed on its way, because the verdict does not apply to such a run.
-    pub fn wordings_of_another_run(&self, is_named: bool) -> Vec<String> {
-        let wordings = self.wordings(is_named).into_iter();
-        wordings.map(|words| format!("if run from {}: {words}", self.start())).collect()
-    }
-
     /// Returns ever shorter wordings for limited room, which are the word and the number, and then only the word. If
     /// `is_named`, the wordings name the body if there are several.
     pub fn wordings(&self, is_named: bool) -> Vec<String> {
@@ -317,6 +316,25 @@ const BETWEEN: &str = " · ";
 impl fmt::Display for Verdict {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(&self.line(true))
+    }
+}
+
+/// Writes a wrong width of a swing: in percent, or as a multiple from [`MULTIPLE`] on.
+fn too_wide(width: f64) -> String {
+    let multiple = significant(width, 2);
+    match width {
+        width if width >= MULTIPLE => format!("{multiple} × too wide"),
+        width if width > 1.0 => format!("{} too wide", percent(width - 1.0)),
+        width if width * MULTIPLE > 1.0 => format!("{} too narrow", percent(1.0 - width)),
+        _ => format!("{multiple} × as wide"),
+    }
+}
+
+impl fmt::Display for SwingWidths {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let [own, truth] = [self.own, self.truth].map(|width| round(width, 3));
+        write!(f, "stays ±{own} {}", self.unit)?;
+        write!(f, "{}(exact ±{truth})", if self.unit.is_empty() { "" } else { " " })
     }
 }
 
@@ -439,7 +457,7 @@ mod tests {
     }
 
     #[test]
-    fn the_details_of_a_failure_name_the_start_of_the_run_and_its_cause() {
+    fn the_details_of_a_failure_name_its_cause() {
         let blows_up = verdict("stiff", "semi-implicit-euler", 49);
         let why = StepFailure::LinearSolveFailed;
         let finding = Finding::Failed {
@@ -448,7 +466,6 @@ mod tests {
         };
         let gives_up = Verdict { finding, ..blows_up.clone() };
         assert_eq!(gives_up.to_string(), "gives up · at 4.14 s");
-        assert_eq!(gives_up.details()[..2], ["if run from the start".to_owned(), why.to_string()]);
-        assert_eq!(blows_up.starting_at(100.0).details()[0], "if run from 100 s");
+        assert_eq!(gives_up.details()[0], why.to_string());
     }
 }

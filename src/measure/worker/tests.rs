@@ -13,13 +13,14 @@ fn for_games() -> usize {
 
 fn request(name: &str) -> AnalysisRequest {
     let scene = Arc::new(Scene::built_in(name).unwrap());
-    let entries = scene.method_list();
+    let entries: Vec<_> = scene.method_list().into_iter().map(|spec| (spec, None)).collect();
     AnalysisRequest {
         scene,
         first: entries.len(),
         entries,
         tick_hz: 60.into(),
         by_hand: Interventions::default(),
+        advised: Interventions::default(),
         advice: None,
         map: None,
     }
@@ -69,11 +70,11 @@ fn a_verdict_uses_the_substeps_of_its_lane() {
     let mut worker = AnalysisWorker::new(plain.clone());
     let (_, once) = answer(&mut worker, &plain);
     let mut finer = plain.clone();
-    let lane = finer.entries.iter_mut().find(|spec| spec.method.id == "rk4").unwrap();
-    lane.substeps = 8;
+    let lane = finer.entries.iter_mut().find(|(spec, _)| spec.method.id == "rk4").unwrap();
+    lane.0.substeps = 8;
     let (count, finer) = answer(&mut worker, &finer);
     let changed: Vec<_> = (0..once.len()).filter(|&i| once[i] != finer[i]).collect();
-    let rk4 = plain.entries.iter().position(|spec| spec.method.id == "rk4").unwrap();
+    let rk4 = plain.entries.iter().position(|(spec, _)| spec.method.id == "rk4").unwrap();
     assert_eq!(changed, [rk4]);
     assert_eq!(count, GENERAL_METHODS.len() - rk4, "those before it stand");
     assert!(finer[rk4].starts_with("accurate"), "{}", finer[rk4]);
@@ -203,7 +204,8 @@ fn no_step_does_twice_its_work_and_a_new_request_drops_the_part_in_progress() {
     let spec = LaneSpec { substeps: 16, ..LaneSpec::plain(method("rk4").unwrap()) };
     let scene = Arc::new(Scene::parse("t", text).unwrap());
     let whole = |tick_hz: u32| Judge::new(&scene).verdict(spec, tick_hz);
-    let fine = AnalysisRequest { scene: scene.clone(), entries: vec![spec], ..request("spring") };
+    let fine =
+        AnalysisRequest { scene: scene.clone(), entries: vec![(spec, None)], ..request("spring") };
     let advised = AnalysisRequest { advice: Some(AdvisedBodies::All), ..fine.clone() };
     let mut worker = AnalysisWorker::new(advised);
     let mut steps = Vec::new();

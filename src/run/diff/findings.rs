@@ -3,7 +3,7 @@
 use std::fmt;
 
 use super::{LEVELS, layout};
-use crate::sim::number::{counted, significant};
+use crate::sim::number::counted;
 
 /// Two values that differ.
 #[derive(Clone, Debug, PartialEq)]
@@ -24,9 +24,6 @@ pub struct Difference {
     pub relative: Option<f64>,
 }
 
-/// Largest distance that is written in ulps; a larger one is written as a number.
-const FEW_ULPS: u64 = 1000;
-
 impl Difference {
     /// Returns the row's cell in a key column.
     pub fn cell(&self, column: &str) -> Option<&str> {
@@ -43,21 +40,6 @@ impl Difference {
             name => format!("{name} {cell}"),
         });
         tick.into_iter().chain(cells).collect::<Vec<_>>().join(", ")
-    }
-
-    /// Describes the size of the difference in a few words.
-    pub fn size(&self) -> String {
-        let column = &self.column;
-        let [a, b] = self.values.each_ref().map(|value| value.as_deref()?.parse::<f64>().ok());
-        let (Some(a), Some(b)) = (a, b) else {
-            return format!("{column} is not a number on both sides");
-        };
-        let size = match self.ulps.filter(|ulps| *ulps <= FEW_ULPS) {
-            Some(ulps) => counted(ulps, "ulp"),
-            None => significant((a - b).abs(), 2),
-        };
-        let part = self.relative.map(|part| format!(", {} % of it", significant(100.0 * part, 2)));
-        format!("size: {size} in {column}{}", part.unwrap_or_default())
     }
 }
 

@@ -15,7 +15,7 @@ use crate::run::{METRICS, Metric};
 const MAX_SUMMED: usize = 4;
 
 /// The recent past of one body in one lane, with the oldest sample first.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct History {
     samples: WindowedLog<Sample>,
     /// The present, if no sample is due at this moment.
@@ -25,7 +25,7 @@ pub struct History {
     most: Peaks,
 }
 
-/// Largest values since the start, or since the last placement of the body.
+/// Largest values since the start.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Peaks {
     /// Largest position error, in the unit of the first coordinate.
@@ -113,7 +113,7 @@ impl History {
         self.after(skipped + usize::from(is_over))
     }
 
-    /// Returns the largest values since the start, or since the last placement of the body.
+    /// Returns the largest values since the start.
     pub fn peaks(&self) -> Peaks {
         self.most
     }
@@ -178,7 +178,7 @@ impl History {
 
     /// Continues from `now`, where the body was placed.
     pub(super) fn jump(&mut self, now: Sample, most: Peaks) {
-        self.most = most;
+        self.note_peaks(most);
         self.begin_at(Sample { jumped: true, ..now });
     }
 

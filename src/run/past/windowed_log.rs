@@ -6,7 +6,7 @@ use std::collections::{VecDeque, vec_deque};
 ///
 /// Numbers count records from the run's start. While a run is in its past, the records of its future stay after the
 /// window. If a repetition [pushes](WindowedLog::push) an equal record, the log keeps the stored one.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(super) struct WindowedLog<T> {
     kept: VecDeque<T>,
     /// Maximum number of visible records.

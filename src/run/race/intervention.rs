@@ -3,8 +3,9 @@
 use std::sync::Arc;
 
 use super::journal::{Author, JournalRow};
-use super::{BodyStart, Checkpoints, Race, RunStart};
-use crate::scene::{Action, Scene, Scripted, nearest_tick};
+use super::run_start::{BodyStart, LaneStart, RunStart};
+use super::{Checkpoints, Race};
+use crate::scene::{Action, LaneId, Scene, Scripted, nearest_tick};
 
 /// The edits by a person and the script up to the present tick.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -34,6 +35,16 @@ impl Interventions {
         Self { start: checkpoints.of_verdicts.clone(), settings }
     }
 
+    /// Like [`Self::in_race`], since the checkpoint for advice.
+    pub(crate) fn for_advice(race: &Race, checkpoints: &Checkpoints) -> Self {
+        Self { start: checkpoints.of_advice.clone(), ..Self::in_race(race, checkpoints) }
+    }
+
+    /// Whether the run was not changed since these edits were noted.
+    pub(crate) fn are_last(&self, checkpoints: &Checkpoints) -> bool {
+        self.start == checkpoints.of_verdicts
+    }
+
     /// Returns the edits for a start right after the last edit, so that no later settings remain.
     pub(crate) fn after_last_edit(checkpoints: &Checkpoints) -> Self {
         Self { start: checkpoints.of_clouds.clone(), settings: Vec::new() }
@@ -47,6 +58,24 @@ impl Interventions {
     /// Returns the run as a scene that starts at the checkpoint. Edited parameters have their last values from the
     /// beginning, and so do a throttle and a rudder set by hand. The script no longer sets any of these.
     pub(crate) fn applied_to(&self, scene: &Scene) -> Scene {
+        self.started(scene, &[])
+    }
+
+    /// Whether a lane was not in the true state at the checkpoint.
+    pub(crate) fn differ_in(&self, lane: LaneId) -> bool {
+        self.lane(lane).is_some()
+    }
+
+    fn lane(&self, lane: LaneId) -> Option<&LaneStart> {
+        self.start.as_ref()?.lanes.iter().find(|start| start.id == lane)
+    }
+
+    /// Like [`Self::applied_to`], from the state that a lane had at the checkpoint.
+    pub(crate) fn applied_to_lane(&self, scene: &Scene, lane: LaneId) -> Scene {
+        self.started(scene, self.lane(lane).map_or(&[], |lane| &lane.bodies))
+    }
+
+    fn started(&self, scene: &Scene, lane: &[Option<[Box<[f64]>; 2]>]) -> Scene {
         let mut scene = scene.clone();
         let mut at_start = Vec::new();
         if let Some(start) = &self.start {
@@ -57,7 +86,9 @@ impl Interventions {
             at_start.push(Action::Rudder(start.rudder));
             for (body, BodyStart { values, q, v }) in start.bodies.iter().enumerate() {
                 scene.bodies[body].values.clone_from(values);
-                at_start.push(Action::Place { body, q: q.clone(), v: v.clone() });
+                let of_lane = lane.get(body).and_then(Option::as_ref);
+                let [q, v] = of_lane.map_or([q, v], |[q, v]| [q, v]).map(Clone::clone);
+                at_start.push(Action::Place { body, q, v });
             }
         }
         for setting in &self.settings {

@@ -29,7 +29,7 @@ pub struct JournalRow {
 
 /// The rows of one future of a run that come after those shared with another future.
 pub(crate) struct JournalTail {
-    kept: usize,
+    pub(crate) kept: usize,
     pub(crate) rows: Vec<JournalRow>,
 }
 

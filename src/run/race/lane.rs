@@ -145,7 +145,7 @@ impl LaneBody {
     }
 
     /// Returns the quantity with this name in words, and the quantity's unit with a space in front, if it has one.
-    fn quantity(&self, name: &str) -> (String, String) {
+    pub(crate) fn quantity(&self, name: &str) -> (String, String) {
         let coordinates = self.coordinates();
         let several = coordinates.len() > 1;
         let velocity = coordinates.iter().find(|coordinate| *coordinate.velocity == *name);

@@ -5,7 +5,7 @@ use std::ops::Range;
 
 use super::fault::{ExpressionFault, Parsed, Remedy, fault, quoted};
 use super::function::{FUNCTIONS, Function, STEP_FUNCTIONS};
-use super::op::{INFIXES, Infix, Level, Op, is_word};
+use super::op::{INFIXES, Infix, Level, Op, REMAINDER, is_word};
 use super::token::{Token, tokens};
 use crate::sim::curve::Curve;
 
@@ -92,6 +92,14 @@ pub(super) trait Scope {
     fn function(&self, name: &str) -> Option<&'static Function> {
         Function::named(name)
     }
+    /// Returns the function with this name that takes this number of arguments.
+    fn overload(&self, _name: &str, _count: usize) -> Option<&'static Function> {
+        None
+    }
+    /// Whether the expression may have the signs and the methods of other languages, such as `&&` and `x.abs()`.
+    fn is_step(&self) -> bool {
+        false
+    }
 }
 
 /// Reads an expression. Its last node is the value.
@@ -114,7 +122,7 @@ fn parse_as(
         let end = text.floor_char_boundary(MAX_BYTES);
         return fault(end..text.len(), what, format!("keep at most {MAX_BYTES}"));
     }
-    let tokens = tokens(text)?;
+    let tokens = tokens(text, scope.is_step())?;
     let expression = Expression::default();
     let mut parser = Parser { text, tokens, next: 0, depth: 0, scope, expression };
     if parser.peek() == Token::End {
@@ -163,8 +171,13 @@ impl Parser<'_> {
         &self.text[self.span()]
     }
 
-    fn is_word(&self, word: &str) -> bool {
-        self.peek() == Token::Name && self.token_text() == word
+    /// Returns the next token if it is a symbol or a word; empty otherwise.
+    fn sign(&self) -> &str {
+        match self.peek() {
+            Token::Symbol(symbol) => symbol,
+            Token::Name => self.token_text(),
+            Token::Number(_) | Token::End => "",
+        }
     }
 
     /// Consumes the next token if it is this symbol.
@@ -233,6 +246,13 @@ impl Parser<'_> {
             }
             self.next += 1;
             let right = self.operation(Some(infix.level))?;
+            if infix.op == REMAINDER.op {
+                let operands = [self.want_number(left)?, self.want_number(right)?];
+                let span = self.span_of(left).start..self.span_of(right).end;
+                let remainder = Function::named_in_steps("fmod").expect("a row of the table");
+                left = self.written(remainder, &operands, &span);
+                continue;
+            }
             for operand in [left, right] {
                 match infix.op {
                     Op::And | Op::Or => self.want_truth(operand)?,
@@ -254,14 +274,16 @@ impl Parser<'_> {
 
     /// Returns the next token as an operator, if it is one.
     fn infix(&self) -> Option<&'static Infix> {
-        let is_sign = matches!(self.peek(), Token::Symbol(_) | Token::Name);
-        INFIXES.iter().find(|infix| is_sign && infix.sign == self.token_text())
+        let sign = self.sign();
+        let is_remainder = self.scope.is_step() && ["%", "mod"].contains(&sign);
+        let found = INFIXES.iter().find(|infix| infix.sign == sign);
+        found.or(is_remainder.then_some(&REMAINDER))
     }
 
     /// Reads the first operand of operators that bind more tightly than the level `outside`.
     fn operand(&mut self, outside: Option<Level>) -> Parsed<usize> {
         let start = self.span().start;
-        if outside <= Some(Level::And) && self.is_word("not") {
+        if outside <= Some(Level::And) && self.sign() == "not" {
             self.next += 1;
             let operand = self.nested(|parser| parser.operation(Some(Level::And)))?;
             let operand = self.want_truth(operand)?;
@@ -269,7 +291,7 @@ impl Parser<'_> {
         }
         let is_negated = self.consume_if("-");
         if !is_negated && !self.consume_if("+") {
-            return self.primary();
+            return self.methods();
         }
         let operand = self.nested(|parser| parser.operation(Some(Level::Product)))?;
         let operand = self.want_number(operand)?;
@@ -314,6 +336,27 @@ impl Parser<'_> {
         (node.op == Op::Number && is_small).then_some((node.number as u32, is_negative))
     }
 
+    /// Reads a value and the methods that are called on it, such as `(v * dt).abs()`.
+    fn methods(&mut self) -> Parsed<usize> {
+        let mut value = self.primary()?;
+        while self.consume_if(".") {
+            let (span, name) = (self.span(), self.token_text().to_owned());
+            self.next += 1;
+            if self.peek() != Token::Symbol("(") {
+                let what = format!("`{}` is one part of a value", quoted(&name));
+                let remedy =
+                    "a step moves one number: write `x` for its position and `v` for its velocity";
+                return fault(span, what, remedy);
+            }
+            let Some(function) = self.scope.function(&name) else {
+                return Err(self.unknown(span, name, "function"));
+            };
+            let receiver = self.want_number(value)?;
+            value = self.call(function, span, Some(receiver))?;
+        }
+        Ok(value)
+    }
+
     fn primary(&mut self) -> Parsed<usize> {
         let span = self.span();
         match self.peek() {
@@ -344,15 +387,17 @@ impl Parser<'_> {
     fn named(&mut self) -> Parsed<usize> {
         let (span, name) = (self.span(), self.token_text().to_owned());
         self.next += 1;
-        if self.peek() == Token::Symbol("(") && self.scope.is_acceleration(&name) {
+        let is_call = self.peek() == Token::Symbol("(");
+        if is_call && self.scope.is_acceleration(&name) {
             return self.acceleration(span);
         }
-        if let Some(function) = self.scope.function(&name) {
-            if self.peek() != Token::Symbol("(") {
+        let function = self.scope.function(&name);
+        if let Some(function) = function.filter(|_| is_call || self.scope.input(&name).is_none()) {
+            if !is_call {
                 let what = format!("`{name}` is a function");
                 return fault(span, what, format!("write `{}`", function.usage()));
             }
-            return self.call(function, span);
+            return self.call(function, span, None);
         }
         if let Some(input) = self.scope.input(&name) {
             if self.peek() == Token::Symbol("(") {
@@ -371,17 +416,20 @@ impl Parser<'_> {
             let what = format!("`{name}` stands where a number or a name is missing");
             return fault(span, what, "write one before it");
         }
-        let is_call = self.peek() == Token::Symbol("(");
+        Err(self.unknown(span, name, if is_call { "function" } else { "name" }))
+    }
+
+    /// Returns the fault of an unknown function or name.
+    fn unknown(&self, span: Range<usize>, name: String, noun: &str) -> ExpressionFault {
         let functions = FUNCTIONS.iter().chain(&STEP_FUNCTIONS).map(|function| function.name);
         let functions = functions.filter(|name| self.scope.function(name).is_some());
-        let known: Vec<String> = if is_call {
+        let known: Vec<String> = if noun == "function" {
             functions.map(str::to_owned).collect()
         } else {
             self.scope.names().into_iter().chain(["pi".to_owned()]).collect()
         };
-        let noun = if is_call { "function" } else { "name" };
         let what = format!("unknown {noun} `{}`", quoted(&name));
-        Err(ExpressionFault { span, what, remedy: Remedy::Name { written: name, known } })
+        ExpressionFault { span, what, remedy: Remedy::Name { written: name, known } }
     }
 }
 

@@ -4,7 +4,7 @@
 
 use std::hash::{Hash, Hasher};
 
-use super::jet::{Jet, chain, product, quotient, root, sum};
+use super::jet::{Jet, chain, constant, product, quotient, root, sum};
 use super::switch::{ModeRule, Switch, SwitchValue};
 
 /// A function that an expression can call.
@@ -19,16 +19,14 @@ pub(super) struct Function {
 pub(super) enum Meaning {
     Smooth(Smooth),
     Switch(Switch),
-    /// `min(max(x, low), high)`.
-    Clamp,
     /// `if(condition, a, b)`.
     If,
     /// `table(x, [[x0, y0], …])`.
     Table,
-    /// `a + (b - a) * part`.
-    Between,
     /// `base ^ exponent`, computed by `pow` even for whole exponents.
     Power,
+    /// An expression of the arguments and, in a step, of its length `dt`.
+    Written(&'static str),
 }
 
 /// A function of one or two arguments that is smooth wherever it is defined. Two functions are equal only if they are
@@ -81,7 +79,7 @@ pub(super) static FUNCTIONS: [Function; 21] = [
     switch("sign", &["x"], ModeRule::Sign, SwitchValue::Mode),
     switch("min", &["a", "b"], ModeRule::Less, SwitchValue::Choice),
     switch("max", &["a", "b"], ModeRule::Greater, SwitchValue::Choice),
-    function("clamp", &["x", "low", "high"], Meaning::Clamp),
+    written("clamp", &["x", "low", "high"], "min(max(x, low), high)"),
     switch("floor", &["x"], ModeRule::Floor, SwitchValue::Mode),
     unary!("exp", |x| f = libm::exp(x), [f, f]),
     unary!("ln", |x| f = libm::log(x), [1.0 / x, -1.0 / (x * x)]),
@@ -125,20 +123,82 @@ pub(super) static FUNCTIONS: [Function; 21] = [
 ];
 
 /// The functions of step lines that laws do not have.
-pub(super) static STEP_FUNCTIONS: [Function; 2] = [
-    function("lerp", &["a", "b", "part"], Meaning::Between),
+pub(super) static STEP_FUNCTIONS: [Function; 31] = [
+    written("lerp", &["a", "b", "part"], "a + (b - a) * part"),
     function("pow", &["base", "exponent"], Meaning::Power),
+    // Halves go away from 0.
+    smooth("round", &["x"], |x, _| libm::round(x), |x, _| constant(libm::round(x[0]))),
+    written("ceil", &["x"], "-floor(-x)"),
+    written("trunc", &["x"], "sign(x) * floor(abs(x))"),
+    written("fract", &["x"], "x - floor(x)"),
+    written("fmod", &["a", "b"], "a - b * trunc(a / b)"),
+    written("mod", &["a", "b"], "a - b * floor(a / b)"),
+    written("wrap", &["x", "low", "high"], "low + mod(x - low, high - low)"),
+    written("min", &["a", "b", "c"], "min(min(a, b), c)"),
+    written("max", &["a", "b", "c"], "max(max(a, b), c)"),
+    written("clamp01", &["x"], "clamp(x, 0, 1)"),
+    written("step", &["edge", "x"], "step(x - edge)"),
+    written("smoothstep", &["low", "high", "x"], "eased(clamp01((x - low) / (high - low)))"),
+    // Unity's, which goes from one value to another.
+    written("smoothStep", &["from", "to", "part"], "lerp(from, to, eased(clamp01(part)))"),
+    written("eased", &["x"], "x * x * (3 - 2 * x)"),
+    written("inverse_lerp", &["a", "b", "x"], "(x - a) / (b - a)"),
+    written("move_toward", &["from", "to", "by"], "clamp(to, from - by, from + by)"),
+    written("angle_to", &["from", "to", "half"], "mod(to - from + half, 2 * half) - half"),
+    written("lerp_angle", &["from", "to", "part"], "from + angle_to(from, to, pi) * part"),
+    // Unity's are in degrees.
+    written("lerpAngle", &["from", "to", "part"], "from + angle_to(from, to, 180) * part"),
+    written("deltaAngle", &["from", "to"], "angle_to(from, to, 180)"),
+    // Unreal's.
+    written("fInterpTo", &["x", "to", "dt", "speed"], "x + (to - x) * clamp(dt * speed, 0, 1)"),
+    written("fInterpConstantTo", &["x", "to", "dt", "speed"], "move_toward(x, to, dt * speed)"),
+    // Unity's critically damped spring, without the stop at the target, and the velocity that it leaves.
+    written("smoothDamp", &["x", "to", "v", "time"], "smoothDamp(x, to, v, time, 0, dt)"),
+    written(
+        "smoothDamp",
+        &["x", "to", "v", "time", "most"],
+        "smoothDamp(x, x - clamp(x - to, -most * time, most * time), v, time)",
+    ),
+    written(
+        "smoothDamp",
+        &["x", "to", "v", "time", "most", "dt"],
+        "to + (x - to + (v + 2 / time * (x - to)) * dt) * damped(2 / time * dt)",
+    ),
+    written("damped", &["k"], "1 / (1 + k + 0.48 * k * k + 0.235 * k * k * k)"),
+    written(
+        "smoothDampVelocity",
+        &["x", "to", "v", "time"],
+        "smoothDampVelocity(x, to, v, time, 0, dt)",
+    ),
+    written(
+        "smoothDampVelocity",
+        &["x", "to", "v", "time", "most"],
+        "smoothDampVelocity(x, x - clamp(x - to, -most * time, most * time), v, time)",
+    ),
+    written(
+        "smoothDampVelocity",
+        &["x", "to", "v", "time", "most", "dt"],
+        "(v - 2 / time * (v + 2 / time * (x - to)) * dt) * damped(2 / time * dt)",
+    ),
 ];
 
-/// Names from other languages, each with our name.
-const ALIASES: [(&str, &str); 16] = [
+/// Names from other languages, each with our name. Capitals and underscores in a call do not matter.
+const ALIASES: [(&str, &str); 36] = [
     ("mix", "lerp"),
     ("lerpf", "lerp"),
+    ("lerpUnclamped", "lerp"),
+    ("lerpClamped", "lerp"),
     ("powf", "pow"),
+    ("powi", "pow"),
+    ("power", "pow"),
     ("log", "ln"),
     ("fabs", "abs"),
     ("fabsf", "abs"),
     ("absf", "abs"),
+    ("length", "abs"),
+    ("signf", "sign"),
+    ("signum", "sign"),
+    ("sgn", "sign"),
     ("fmin", "min"),
     ("fminf", "min"),
     ("minf", "min"),
@@ -146,8 +206,20 @@ const ALIASES: [(&str, &str); 16] = [
     ("fmaxf", "max"),
     ("maxf", "max"),
     ("clampf", "clamp"),
+    ("saturate", "clamp01"),
     ("expf", "exp"),
     ("sqrtf", "sqrt"),
+    ("roundf", "round"),
+    ("floorf", "floor"),
+    ("ceilf", "ceil"),
+    ("fmodf", "fmod"),
+    ("fposmod", "mod"),
+    ("repeat", "mod"),
+    ("frac", "fract"),
+    ("wrapf", "wrap"),
+    ("moveTowards", "move_toward"),
+    ("approach", "move_toward"),
+    ("inverseLerpf", "inverse_lerp"),
 ];
 
 const fn function(
@@ -156,6 +228,14 @@ const fn function(
     meaning: Meaning,
 ) -> Function {
     Function { name, arguments, meaning }
+}
+
+const fn written(
+    name: &'static str,
+    arguments: &'static [&'static str],
+    expression: &'static str,
+) -> Function {
+    function(name, arguments, Meaning::Written(expression))
 }
 
 const fn smooth(
@@ -196,9 +276,31 @@ impl Function {
 
     /// Returns the function of this name in step lines. The name may also be that of another language.
     pub(super) fn named_in_steps(name: &str) -> Option<&'static Self> {
-        let alias = ALIASES.iter().find(|(alias, _)| *alias == name);
-        let name = alias.map_or(name, |(_, name)| name);
-        FUNCTIONS.iter().chain(&STEP_FUNCTIONS).find(|function| function.name == name)
+        Self::rows_in_steps(name).next()
+    }
+
+    /// Returns the function of this name in step lines that takes this number of arguments.
+    pub(super) fn with_arguments(name: &str, count: usize) -> Option<&'static Self> {
+        Self::rows_in_steps(name).find(|function| function.arguments.len() == count)
+    }
+
+    /// Whether no number of a step can have this name.
+    pub(super) fn is_reserved(name: &str) -> bool {
+        FUNCTIONS.iter().chain(&STEP_FUNCTIONS[..2]).any(|function| function.name == name)
+    }
+
+    fn rows_in_steps(name: &str) -> impl Iterator<Item = &'static Self> {
+        let plain = |name: &str| name.replace('_', "").to_ascii_lowercase();
+        let rows = || FUNCTIONS.iter().chain(&STEP_FUNCTIONS);
+        let (mut first, written) = (name.to_owned(), plain(name));
+        first[..name.ceil_char_boundary(name.len().min(1))].make_ascii_lowercase();
+        let alias = ALIASES.iter().find(|(alias, _)| plain(alias) == written);
+        let found = rows().find(|function| function.name == first).map(|function| function.name);
+        let found = found.or(alias.map(|(_, name)| *name)).or_else(|| {
+            let mut rows = rows();
+            rows.find(|function| plain(function.name) == written).map(|function| function.name)
+        });
+        rows().filter(move |function| Some(function.name) == found)
     }
 }
 

@@ -78,6 +78,9 @@ pub(super) const INFIXES: [Infix; 13] = [
     infix("^", Level::Power, Op::Power),
 ];
 
+/// The remainder `a % b` of step lines, which the parser writes out.
+pub(super) static REMAINDER: Infix = infix("%", Level::Product, Op::Call);
+
 const fn infix(sign: &'static str, level: Level, op: Op) -> Infix {
     Infix { sign, level, op, is_swapped: false }
 }

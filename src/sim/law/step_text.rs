@@ -10,19 +10,22 @@ use super::expression::Expression;
 use super::fault::{ExpressionFault, fault};
 use super::form::is_linear;
 use super::jet::Jet;
+pub(crate) use super::tape::SwitchKind;
 use super::tape::Tape;
 pub use code::StepCode;
 pub(crate) use linear::{AT_TARGET, Frame, NO_RETURN, remembers_place};
 pub use linear::{LinearRule, RuleBody};
 pub use method::StepCall;
+use paths::Component;
 use plain::plain;
 pub(crate) use powers::Powers;
 use reader::Reader;
-use statements::statements;
+use statements::{Statement, statements};
 
 mod code;
 mod linear;
 mod method;
+mod paths;
 mod plain;
 mod powers;
 mod reader;
@@ -69,6 +72,7 @@ pub struct StepText {
     /// The byte range of the first call of the acceleration; `None` in a rule, which has no call.
     call: Option<Range<usize>>,
     calls: Vec<StepCall>,
+    left_out: Option<[char; 2]>,
 }
 
 /// The carried numbers of one body, and the scratch of its steps.
@@ -120,12 +124,13 @@ impl StepText {
             let what = format!("the text has {} bytes", text.len());
             return fault(end..text.len(), what, format!("keep at most {MAX_STEP_BYTES}"));
         }
-        let plain = plain(text);
-        let mut reader = Reader::new(&plain)?;
-        for statement in statements(&plain)? {
+        let (plain, components) = plain(text);
+        let (statements, left_out) = of_one_component(statements(&plain)?, &components)?;
+        let mut reader = Reader::new(&plain, &statements)?;
+        for statement in statements {
             reader.read_statement(statement)?;
         }
-        Ok(Self { source: text.to_owned(), ..reader.finish()? })
+        Ok(Self { source: text.to_owned(), left_out, ..reader.finish()? })
     }
 
     /// Reads the text of a rule, which calls no acceleration. If the text does call the acceleration, the fault has
@@ -141,6 +146,12 @@ impl StepText {
     /// Returns the original text.
     pub fn source(&self) -> &str {
         &self.source
+    }
+
+    /// Returns the component of the vectors that the lines move, and the first other one, whose lines are left out.
+    /// `None` if the lines name one component at most.
+    pub fn left_out(&self) -> Option<[char; 2]> {
+        self.left_out
     }
 
     /// Returns the carried numbers, which are `x`, `v`, and then those of the text.
@@ -226,6 +237,11 @@ impl StepText {
 
     /// Returns the map of a step of `h` seconds at these carried numbers and this target, with its exact derivatives.
     pub fn map(&self, h: f64, at: &[f64], target: f64) -> StepMap {
+        self.map_on(&[], h, at, target)
+    }
+
+    /// Returns the map on the piece with these modes of the switches, continued beyond its boundaries.
+    pub(crate) fn map_on(&self, modes: &[i64], h: f64, at: &[f64], target: f64) -> StepMap {
         let inputs = self.carried.iter().map(|carried| carried.input).chain([TARGET]);
         let mut slots: Vec<Jet> = vec![[0.0; 3]; self.tape.slots];
         let mut values = Vec::new();
@@ -236,13 +252,64 @@ impl StepText {
                 slots[carried.input] = [*value, 0.0, 0.0];
             }
             slots[input][1] = 1.0;
-            self.tape.evaluate_jets(&mut slots);
+            self.tape.evaluate_jets_on(modes, &mut slots);
             let outputs = self.tape.outputs.iter().map(|slot| slots[*slot as usize]);
             values = outputs.clone().map(|[value, ..]| value).collect();
             outputs.map(|[_, slope, _]| slope).collect()
         };
         let columns = inputs.map(&mut column).collect();
         StepMap { values, columns }
+    }
+}
+
+impl StepText {
+    /// Returns the modes of the switches in a step of `h` seconds from these carried numbers.
+    pub(crate) fn modes(&self, h: f64, at: &[f64], target: f64) -> Vec<i64> {
+        let mut slots = vec![0.0; self.tape.slots];
+        (slots[H], slots[TARGET]) = (h, target);
+        for (carried, value) in self.carried.iter().zip(at) {
+            slots[carried.input] = *value;
+        }
+        self.tape.prepare::<1>(slots.as_chunks_mut().0);
+        self.tape.evaluate(&mut slots);
+        let mut modes = vec![0; self.tape.switches()];
+        self.tape.write_modes(&slots, &mut modes);
+        modes
+    }
+
+    /// Returns the source of each switch of the lines, with its kind.
+    pub(crate) fn switches(&self) -> impl Iterator<Item = (SwitchKind, &str)> {
+        self.tape
+            .switch_origins()
+            .map(|(kind, span)| (kind, self.source.get(span.clone()).unwrap_or_default().trim()))
+    }
+}
+
+/// Returns the statements of the first component of the vectors of a text, and this component with the first other.
+fn of_one_component(
+    mut statements: Vec<Statement>,
+    components: &[Component],
+) -> Result<(Vec<Statement>, Option<[char; 2]>), ExpressionFault> {
+    let Some(first) = components.first() else { return Ok((statements, None)) };
+    let is_other = |component: &&Component| component.letter != first.letter;
+    let Some(other) = components.iter().find(is_other) else { return Ok((statements, None)) };
+    let mut left = components.iter().filter(is_other).collect::<Vec<_>>();
+    statements.retain(|statement| {
+        let Statement::Assign { name, value, .. } = statement else { return true };
+        let within = |component: &&Component| (name.start..value.end).contains(&component.at);
+        let mut inside = components.iter().filter(within).peekable();
+        let is_kept = inside.peek().is_none() || inside.any(|it| it.letter == first.letter);
+        left.retain(|component| is_kept || !within(component));
+        is_kept
+    });
+    let letters = [first, other].map(|component| char::from(component.letter));
+    match left.first() {
+        Some(mixed) => fault(
+            mixed.at..mixed.at + 1,
+            format!("a line mixes the components {} and {} of vectors", letters[0], letters[1]),
+            "a step moves one number: write the lines of one component",
+        ),
+        None => Ok((statements, Some(letters))),
     }
 }
 

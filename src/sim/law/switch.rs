@@ -111,7 +111,11 @@ impl Switch {
 
     /// Returns the value with its derivatives at these operands.
     pub(super) fn jet(self, [a, b]: [Jet; 2], table: Option<&Curve>) -> Jet {
-        let mode = self.mode(a[0], b[0], table);
+        self.jet_on(self.mode(a[0], b[0], table), [a, b], table)
+    }
+
+    /// Returns the value with its derivatives in a mode.
+    pub(super) fn jet_on(self, mode: i64, [a, b]: [Jet; 2], table: Option<&Curve>) -> Jet {
         let value = self.value_on(mode, a[0], b[0], table);
         match self.value {
             SwitchValue::Mode | SwitchValue::Truth | SwitchValue::Equal | SwitchValue::NotEqual => {

@@ -11,7 +11,7 @@ use super::expression::{Expression, Node};
 use super::fault::Part;
 use super::jet::{self, Jet};
 use super::op::Op;
-use super::switch::Switch;
+use super::switch::{ModeRule, Switch};
 use crate::sim::curve::Curve;
 
 /// The maximum number of operations of a tape, with which a step takes ten microseconds.
@@ -41,6 +41,19 @@ pub(super) struct Call {
     /// The slot of the guard, which is 1 if the call is made; `None` if the call is always made.
     pub(super) guard: Option<usize>,
     pub(super) to: usize,
+}
+
+/// The kind of a switch.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum SwitchKind {
+    /// A comparison, whose mode 1 is true.
+    Condition,
+    /// The choice of one of two numbers.
+    Limit,
+    /// A function of a number's sign.
+    Sign,
+    /// A function with many pieces.
+    Many,
 }
 
 /// The position of an operation in the text.
@@ -240,13 +253,43 @@ impl Tape {
 
     /// Evaluates the tape with derivatives. The slots of the inputs must be set.
     pub(super) fn evaluate_jets(&self, slots: &mut [Jet]) {
+        self.evaluate_jets_on(&[], slots);
+    }
+
+    /// Evaluates the tape with derivatives, with each switch in its mode of `modes`. Switches without one are in the
+    /// mode of their operands.
+    pub(super) fn evaluate_jets_on(&self, modes: &[i64], slots: &mut [Jet]) {
         for &(slot, number) in &self.numbers {
             slots[slot as usize] = jet::constant(number);
         }
-        for (op, operands, to, table) in self.operations() {
+        let mut modes = modes.iter();
+        for (n, (op, operands, to, table)) in self.operations().enumerate() {
             let operand = |n: usize| operands.get(n).map_or([0.0; 3], |&slot| slots[slot as usize]);
-            slots[to as usize] = jet(op, [operand(0), operand(1), operand(2)], table);
+            let operands = [operand(0), operand(1), operand(2)];
+            let mode = match op {
+                Op::Switch(switch) if n >= self.prelude.len() => {
+                    modes.next().map(|it| (switch, *it))
+                }
+                _ => None,
+            };
+            slots[to as usize] = match mode {
+                Some((switch, mode)) => switch.jet_on(mode, [operands[0], operands[1]], table),
+                None => jet(op, operands, table),
+            };
         }
+    }
+
+    /// Returns the kind and the byte range of each switch.
+    pub(super) fn switch_origins(&self) -> impl Iterator<Item = (SwitchKind, &Range<usize>)> {
+        self.switches.iter().map(|(switch, instruction)| {
+            let kind = match switch.pieces {
+                _ if switch.is_truth() => SwitchKind::Condition,
+                ModeRule::Floor | ModeRule::Table => SwitchKind::Many,
+                ModeRule::NotNegative | ModeRule::Sign => SwitchKind::Sign,
+                _ => SwitchKind::Limit,
+            };
+            (kind, &self.origins[&instruction.to].span)
+        })
     }
 
     /// Returns the number of switches.

@@ -41,8 +41,22 @@ const FOREIGN: [(&str, &str); 11] = [
     ("÷", "/"),
 ];
 
-/// Returns the tokens of `text` with their byte ranges. The last token is [`Token::End`].
-pub(super) fn tokens(text: &str) -> Parsed<Vec<(Token, Range<usize>)>> {
+/// Signs of other notations that step lines have too, each with our symbol.
+const STEP_SIGNS: [(&str, &str); 9] = [
+    ("**", "^"),
+    ("&&", "and"),
+    ("||", "or"),
+    ("%", "%"),
+    ("−", "-"),
+    ("·", "*"),
+    ("×", "*"),
+    ("÷", "/"),
+    ("!", "not"),
+];
+
+/// Returns the tokens of `text` with their byte ranges. The last token is [`Token::End`]. Only a step has methods and
+/// the signs of other notations.
+pub(super) fn tokens(text: &str, is_step: bool) -> Parsed<Vec<(Token, Range<usize>)>> {
     let mut tokens = Vec::new();
     let mut at = 0;
     while let Some(first) = text[at..].chars().next() {
@@ -51,10 +65,20 @@ pub(super) fn tokens(text: &str) -> Parsed<Vec<(Token, Range<usize>)>> {
             at += 1;
             continue;
         }
-        let (token, length) = if first.is_ascii_digit() || first == '.' {
+        let mut step_signs = STEP_SIGNS.iter().filter(|_| is_step && !rest.starts_with("!="));
+        let after_value =
+            matches!(tokens.last(), Some((Token::Name | Token::Number(_) | Token::Symbol(")"), _)));
+        let is_method = is_step
+            && after_value
+            && rest.strip_prefix('.').is_some_and(|rest| rest.starts_with(is_name_start));
+        let (token, length) = if is_method {
+            (Token::Symbol("."), 1)
+        } else if first.is_ascii_digit() || first == '.' {
             number(rest, at)?
         } else if is_name_start(first) {
             (Token::Name, span_of(rest, |c| is_name_start(c) || c.is_ascii_digit()))
+        } else if let Some((sign, symbol)) = step_signs.find(|(sign, _)| rest.starts_with(sign)) {
+            (Token::Symbol(symbol), sign.len())
         } else if let Some((sign, meant)) = foreign(rest) {
             let what = format!("`{sign}` has no meaning here");
             return fault(at..at + sign.len(), what, format!("write `{meant}`"));
@@ -94,6 +118,9 @@ fn number(rest: &str, at: usize) -> Parsed<(Token, usize)> {
         let digits = span_of(&rest[length + 1 + sign..], |c| c.is_ascii_digit());
         length += if digits > 0 { 1 + sign + digits } else { 0 };
     }
+    // The point after `2.0` in `2.0.sqrt()` is that of the method.
+    let is_name_next = rest[length..].starts_with(is_name_start);
+    length -= usize::from(is_name_next && length > 2 && rest[..length].ends_with('.'));
     let (span, text) = (at..at + length, &rest[..length]);
     let number = match text.parse::<f64>() {
         Ok(number) if number.is_finite() => number,

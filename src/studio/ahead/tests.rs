@@ -1,6 +1,6 @@
 use super::*;
 use crate::measure::FutureMoment;
-use crate::scene::{LaneSpec, Scene};
+use crate::scene::{Action, LaneId, LaneSpec, Scene};
 use crate::sim::integrators::{GENERAL_METHODS, METHODS, Method};
 use crate::studio::{RunCommand, StageCommand, Step, ViewCommand};
 
@@ -206,8 +206,41 @@ fn a_held_tick_rate_stops_time_and_shows_futures_until_its_release() {
     studio.apply(ViewCommand::PointerDown(false));
     (0..30).for_each(|_| _ = studio.advance(FRAME_NS));
     assert!(!shows_futures(&studio) && studio.race().tick() > tick);
+    let rates = |studio: &Studio| studio.deck.recorded().script.len();
+    assert_eq!(rates(&studio), 1, "the drag is one action");
     studio.apply(RunCommand::Undo);
-    assert_eq!(studio.race().tick_hz(), 60, "the drag is one edit");
+    assert_eq!((studio.race().tick_hz(), rates(&studio)), (60.into(), 0), "and one edit");
+}
+
+#[test]
+fn a_drag_out_and_back_changes_nothing_and_leaves_nothing_to_undo() {
+    let mut studio = Studio::new(Scene::built_in("harbour").unwrap());
+    (0..47).for_each(|_| studio.tick());
+    let (stiffness, _) = studio.scene().bodies[0].kind.parameter("stiffness_n_per_m").unwrap();
+    let present = studio.race().values(0)[stiffness];
+    let set = |value| Action::Set { body: 0, parameter: stiffness, value };
+    let substeps = |substeps| Action::Substeps { lane: LaneId(1), substeps };
+    let hz = |hz: u32| Action::TickHz(hz.into());
+    for (away, back) in [
+        ([set(80.0), set(3.0)], set(present)),
+        ([substeps(2), substeps(9)], substeps(1)),
+        ([hz(5), hz(500)], hz(60)),
+    ] {
+        let hash = studio.race().state_hash();
+        let edits = studio.deck.edits;
+        studio.apply(ViewCommand::PointerDown(true));
+        studio.apply(ViewCommand::HoldTickRate);
+        for action in away {
+            studio.apply(RunCommand::Act(action));
+            assert!(studio.run().undoes().is_some());
+        }
+        assert_eq!(studio.deck.recorded().script.len(), 1, "{back:?}");
+        studio.apply(RunCommand::Act(back.clone()));
+        studio.apply(ViewCommand::PointerDown(false));
+        assert_eq!(studio.run().undoes(), None, "{back:?}");
+        assert_eq!((studio.race().state_hash(), studio.deck.edits), (hash, edits), "{back:?}");
+        assert_eq!(studio.deck.recorded().script.len(), 0, "{back:?}");
+    }
 }
 
 #[test]

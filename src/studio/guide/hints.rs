@@ -28,10 +28,10 @@ static FOLLOW_UP_HINTS: [FollowUpHint; 8] = [
         text: |now| {
             let beside = [Step::Previous, Step::Next]
                 .map(|step| step.next_rung(&TICK_LADDER, now.race.tick_hz()));
-            beside
-                .iter()
-                .all(Option::is_some)
-                .then_some("Drag the tick rate, or press `[`: the next second unfolds.")
+            beside.iter().all(Option::is_some).then_some(match now.is_lost {
+                true => "Press `]` for a faster tick, and `Home`: does it hold?",
+                false => "Drag the tick rate, or press `[`: the next second unfolds.",
+            })
         },
         is_done_by: |command| {
             matches!(command, Command::Stage(StageCommand::TickRate(_) | StageCommand::TickHz(_)))
@@ -247,6 +247,22 @@ mod tests {
         assert!(asks_for(&studio, "`Home`"), "it did not start under this one");
         studio.apply(StageCommand::Restart);
         assert!(asks_for(&studio, "`C`"));
+    }
+
+    #[test]
+    fn a_lost_run_is_told_to_tick_faster_and_not_slower() {
+        use crate::studio::Studio;
+        let mut studio = Studio::new(Scene::built_in("stiff").unwrap());
+        studio.apply(StageCommand::TickHz(30.into()));
+        (0..60).for_each(|_| studio.tick());
+        assert!(studio.deck.lost_at().is_some());
+        studio.apply(StageCommand::Restart);
+        (0..60).for_each(|_| studio.tick());
+        let mut fresh = Hints::default();
+        fresh.scene = true;
+        studio.viewer.hints = fresh;
+        let hint = studio.hint().unwrap();
+        assert!(hint.contains("`]`") && !hint.contains("`[`"), "{hint}");
     }
 
     #[test]

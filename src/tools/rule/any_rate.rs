@@ -2,8 +2,8 @@
 
 use nalgebra::{Matrix2, Vector2};
 
-use super::Rule;
-use crate::sim::law::{AT_TARGET, Frame, NO_RETURN, Powers, StepCode};
+use super::{Piece, Rule};
+use crate::sim::law::{AT_TARGET, Frame, NO_RETURN, Powers, StepCode, SwitchKind};
 use crate::tools::source_code::{Language, rule_code};
 
 /// If the logarithms of the eigenvalues are this far apart, the code has two exponentials. If they are closer, the
@@ -97,7 +97,7 @@ impl Rule {
 
     fn closed_form(&self) -> Result<String, NoClosedForm> {
         if !self.is_linear {
-            return Err(NoClosedForm::NotLinear);
+            return self.two_rates().ok_or(NoClosedForm::NotLinear);
         }
         let frame = self.frame(self.fps).ok_or(NoClosedForm::ManyNumbers)?;
         let lines = match self.state.len() {
@@ -117,6 +117,39 @@ impl Rule {
         let lines: Vec<&str> = lines.iter().filter(is_read).map(String::as_str).collect();
         let takes_target = lines.iter().any(|line| line.contains("target"));
         Ok(self.head(takes_target, self.state.iter().copied()) + &lines.join("\n") + "\n")
+    }
+
+    /// Returns the closed form of a chase that is quicker on one side of its target.
+    fn two_rates(&self) -> Option<String> {
+        let mut switches = self.text.switches();
+        let is_one = matches!(switches.next(), Some((SwitchKind::Condition, _)));
+        if !is_one || switches.next().is_some() || self.state != [0] {
+            return None;
+        }
+        let h = self.step_length(self.fps);
+        let modes_at = |x: f64| {
+            let mut at = vec![0.0; self.text.carried().len()];
+            at[0] = x;
+            self.text.modes(h, &at, 0.0)
+        };
+        if [-1.0, 1.0].iter().any(|side| modes_at(side * 1e-9) != modes_at(side * 1e9)) {
+            return None;
+        }
+        let pieces = self.pieces();
+        let [first, second] = &pieces[..] else { return None };
+        let line = |piece: &Piece| {
+            let frame = piece.rule.frame(self.fps)?;
+            let rests = frame.by_target.x / (1.0 - frame.map.m11);
+            let chases = frame.map.m11 < 1.0 && (rests - 1.0).abs() <= AT_TARGET;
+            let lines = piece.rule.first_order(&frame).ok()?;
+            (chases && frame.offset.x == 0.0).then(|| lines.concat())
+        };
+        let code = self.text.code().ok()?.lines;
+        let condition =
+            code.first()?.strip_prefix("if ").filter(|it| !it.contains(StepCode::STEP))?;
+        let [first, second] = [line(first)?, line(second)?];
+        let head = self.head(true, self.state.iter().copied());
+        Some(format!("{head}if {condition}\n    {first}\n}} else {{\n    {second}\n}}\n"))
     }
 
     fn first_order(&self, frame: &Frame) -> Result<Vec<String>, NoClosedForm> {
@@ -237,11 +270,13 @@ impl Rule {
         source += &self.head(self.text.takes_target(), 0..self.text.carried().len());
         functions.iter().for_each(|function| source += &format!("{function}\n"));
         let is_part = |c: char| c.is_ascii_alphanumeric() || c == '_';
-        let place =
-            |line: &String| line.split(|c| !is_part(c)).position(|word| word == StepCode::STEP);
+        let place = |line: &String| line.split(|c| !is_part(c)).position(|it| it == StepCode::STEP);
         let step = if lines.iter().any(|line| place(line) == Some(0)) { "var" } else { "let" };
         let reads = lines.iter().any(|line| place(line).is_some());
-        let step = reads.then(|| format!("{step} {} = FRAME_S", StepCode::STEP));
+        let step = reads.then(|| match self.units {
+            1.0 => format!("{step} {} = FRAME_S", StepCode::STEP),
+            units => format!("{step} {} = FRAME_S * {units:?}", StepCode::STEP),
+        });
         let lines: Vec<String> =
             step.into_iter().chain(lines).map(|line| format!("    {line}")).collect();
         Ok(source

@@ -1,5 +1,5 @@
-//! Advice on the method for the scene at its tick rate: the recommendations so far, and below them a table of the
-//! findings on every method.
+//! Advice on the method for the scene at its tick rate: one recommendation, its source code, and a table of the findings
+//! on every method.
 
 use std::sync::Arc;
 
@@ -13,7 +13,7 @@ use super::parts::{is_picture, tone};
 use super::table::{Column, GAP, MARGIN, SortKey, Table, TableRow, show_name};
 use crate::measure::{
     Advice, AdvisedBodies, CRITERIA, Criterion, CriterionMet, CriterionResult,
-    MAX_ADVISED_SUBSTEPS, MethodAdvice, PassedOver, Recommendation, recommended,
+    MAX_ADVISED_SUBSTEPS, MethodAdvice, PassedOver, Recommendation,
 };
 use crate::scene::LaneSpec;
 use crate::stage::number::{counted, significant};
@@ -32,9 +32,9 @@ const SMALL: f32 = 11.5;
 const LINE: f32 = 20.0;
 const APART: f32 = 6.0;
 const MIN_NAME: f32 = 120.0;
-/// Share of the height below the recommendations for the source code.
+/// Share of the height below the recommendation for the source code.
 const CODE_PART: f32 = 0.5;
-/// Width of the names of the criteria beside their recommendations, in points.
+/// Width of the name of the criterion beside the recommendation, in points.
 const CRITERION: f32 = 76.0;
 
 pub(super) fn show(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) {
@@ -44,18 +44,22 @@ pub(super) fn show(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) {
         cut_line(ui, RichText::new("judging every method …").color(palette(ui).dim));
         return;
     };
-    let best: Vec<_> = (0..CRITERIA.len()).map(|i| recommended_method(advice, i)).collect();
-    show_recommendations(ui, studio, advice, &best, commands);
+    let best = advice.to_take();
+    show_recommendation(ui, studio, advice, commands);
     ui.separator();
-    if ui.available_height() >= breakpoints::CODE && !is_picture(ui) {
-        code(ui, studio, commands);
+    if advice.is_decided && ui.available_height() >= breakpoints::CODE && !is_picture(ui) {
+        let taken = best.and_then(|(row, criterion)| {
+            let MethodAdvice { spec, met, .. } = &advice.advised[row];
+            Some(LaneSpec { substeps: met[criterion].met()?.substeps, ..*spec })
+        });
+        code(ui, studio, taken.unwrap_or(studio.selected().spec));
         ui.separator();
     }
     let whose = match advice.bodies {
         AdvisedBodies::All if studio.scene().bodies.len() > 1 => ", all bodies",
         _ => "",
     };
-    table(ui, advice, whose, &best, commands);
+    table(ui, advice, whose, best, commands);
 }
 
 /// Shows the choice between all bodies and the selected one, if the scene has several bodies.
@@ -79,11 +83,6 @@ fn which_bodies(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) {
     });
 }
 
-/// Returns the index of the recommended method for a criterion.
-fn recommended_method(advice: &Advice, criterion: usize) -> Option<usize> {
-    recommended(&advice.advised, criterion)
-}
-
 /// Shows a line of text, truncated where it would widen the panel.
 fn cut_line(ui: &mut Ui, text: RichText) -> Response {
     ui.add(Label::new(text).truncate())
@@ -99,20 +98,14 @@ fn in_slot<R>(ui: &mut Ui, width: f32, content: impl FnOnce(&mut Ui) -> R) -> R 
     place.inner
 }
 
-/// Recommends a method for each criterion, from the methods judged so far.
-fn show_recommendations(
-    ui: &mut Ui,
-    studio: &Studio,
-    advice: &Advice,
-    best: &[Option<usize>],
-    commands: &mut Vec<Command>,
-) {
-    let (done, wanted) = (advice.advised.len(), advice.wanted);
-    let told = match done < wanted {
-        true => {
-            format!("At {:.3} Hz, the best of {done} of {wanted} methods judged:", advice.tick_hz)
-        }
-        false => format!("At {:.3} Hz, take:", advice.tick_hz),
+/// Recommends one method once the search has ended. Until then no name and no button is shown, because another method
+/// may take its place.
+fn show_recommendation(ui: &mut Ui, studio: &Studio, advice: &Advice, commands: &mut Vec<Command>) {
+    let (done, wanted, hz) = (advice.advised.len(), advice.wanted, advice.tick_hz);
+    let told = match advice.is_decided {
+        true => format!("At {hz:.3} Hz, take:"),
+        false if done < wanted => format!("At {hz:.3} Hz: {done} of {wanted} methods judged …"),
+        false => format!("At {hz:.3} Hz: searching reserves …"),
     };
     ui.horizontal(|ui| {
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
@@ -122,38 +115,36 @@ fn show_recommendations(
             });
         });
     });
-    for (i, (criterion, best)) in CRITERIA.iter().zip(best).enumerate() {
-        let taken = best.and_then(|row| {
-            let advised = &advice.advised[row];
-            Some((advised, advised.met[i].met()?))
-        });
-        ui.horizontal(|ui| {
-            ui.spacing_mut().item_spacing.x = APART;
-            let name = RichText::new(criterion.name()).color(palette(ui).dim);
-            in_slot(ui, CRITERION, |ui| cut_line(ui, name)).on_hover_text(criterion.about());
-            let Some((advised, met)) = taken else {
-                let all_miss = advice.advised.iter().all(|row| row.met[i] == CriterionResult::No);
-                let none = if done < wanted {
-                    "none yet".to_owned()
-                } else if all_miss {
-                    format!("none with up to {MAX_ADVISED_SUBSTEPS} substeps")
-                } else {
-                    "not known".into()
-                };
-                cut_line(ui, RichText::new(none).color(palette(ui).text));
-                return;
+    if !advice.is_decided {
+        return;
+    }
+    let taken = advice.to_take().and_then(|(row, criterion)| {
+        let advised = &advice.advised[row];
+        Some((advised, criterion, advised.met[criterion].met()?))
+    });
+    ui.horizontal(|ui| {
+        ui.spacing_mut().item_spacing.x = APART;
+        let Some((advised, criterion, met)) = taken else {
+            let is_missed = |row: &MethodAdvice| row.met.contains(&CriterionResult::No);
+            let none = match advice.advised.iter().all(is_missed) {
+                true => format!("none with up to {MAX_ADVISED_SUBSTEPS} substeps"),
+                false => "not known".into(),
             };
-            ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-                copy_button(ui, studio, advised.spec, commands);
-                ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
-                    let recommendation = Recommendation::of(&advice.advised, i);
-                    let instead_of = recommendation.and_then(|it| it.instead_of);
-                    let colour = tone(ui, advised.outcome_with(met.substeps));
-                    taken_line(ui, (advised.spec.method.name, colour), met, instead_of.as_ref());
-                });
+            cut_line(ui, RichText::new(none).color(palette(ui).text));
+            return;
+        };
+        let name = RichText::new(CRITERIA[criterion].name()).color(palette(ui).dim);
+        in_slot(ui, CRITERION, |ui| cut_line(ui, name)).on_hover_text(CRITERIA[criterion].about());
+        ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+            copy_button(ui, studio, advised.spec, commands);
+            ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
+                let recommendation = Recommendation::of(&advice.advised, criterion);
+                let instead_of = recommendation.and_then(|it| it.instead_of);
+                let colour = tone(ui, advised.outcome_with(met.substeps));
+                taken_line(ui, (advised.spec.method.name, colour), met, instead_of.as_ref());
             });
         });
-    }
+    });
 }
 
 /// Shows a method and its substeps in this colour, with a mark if the substeps leave no reserve. The name is truncated
@@ -216,9 +207,9 @@ fn copy_button(ui: &mut Ui, studio: &Studio, spec: LaneSpec, commands: &mut Vec<
     response.context_menu(|ui| super::lanes::menu(ui, studio, entry, commands));
 }
 
-/// Shows the method on the stage as source code, and the number of its calls at this tick rate.
-fn code(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) {
-    let (spec, language) = (studio.selected().spec, studio.viewer.language());
+/// Shows a method as source code, and the number of its calls at this tick rate.
+fn code(ui: &mut Ui, studio: &Studio, spec: LaneSpec) {
+    let language = studio.viewer.language();
     let id = Id::unique(("code", spec.method.id, language.id()));
     let known = ui.data(|data| data.get_temp::<Arc<str>>(id));
     let text = known.unwrap_or_else(|| {
@@ -229,7 +220,6 @@ fn code(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) {
     });
     ui.horizontal(|ui| {
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-            copy_button(ui, studio, spec, commands);
             let hz = studio.clock().tick_hz().scaled(spec.substeps, 1);
             let calls = counted(spec.substeps, "call");
             let called = format!("{}: {calls} a tick, h = 1/{hz:.3} s", spec.method.name);
@@ -270,7 +260,7 @@ fn table(
     ui: &mut Ui,
     advice: &Advice,
     whose: &str,
-    best: &[Option<usize>],
+    best: Option<(usize, usize)>,
     commands: &mut Vec<Command>,
 ) {
     let (width, has_rates) = cell_width(ui, advice, ui.available_width());
@@ -310,7 +300,8 @@ fn table(
 struct Row<'a> {
     advised: &'a MethodAdvice,
     index: usize,
-    best: &'a [Option<usize>],
+    /// The recommended method and the criterion that it meets.
+    best: Option<(usize, usize)>,
     has_rates: bool,
 }
 
@@ -335,7 +326,7 @@ impl Row<'_> {
                 return;
             }
         };
-        let is_best = self.best[criterion] == Some(self.index);
+        let is_best = self.best == Some((self.index, criterion));
         let of_lane = tone(&ui, self.advised.outcome_with(met.substeps));
         let colour = if is_best { of_lane } else { palette(&ui).text };
         let text = cell_text(met, self.has_rates);
@@ -398,203 +389,4 @@ fn whole(count: f64) -> String {
 }
 
 #[cfg(test)]
-mod tests {
-    use egui::{FontFamily, Pos2, Rect};
-
-    use super::*;
-    use crate::measure::AnalysisWorker;
-    use crate::scene::Scene;
-    use crate::studio::{Instrument, StageCommand, accept_findings};
-    use crate::view::panels;
-    use crate::view::testing::{ShownText, TestWindow};
-
-    /// Shows frames of this size. Returns the stage, and every text that is fully visible, with its place.
-    fn shown(studio: &Studio, size: [f32; 2]) -> (Rect, Vec<(Pos2, String)>) {
-        let mut window = TestWindow::new(size);
-        let mut frame = || window.show(Vec::new(), |ui| panels::show(ui, studio).1);
-        (0..2).for_each(|_| drop(frame()));
-        let (stage, mut shown) = frame();
-        shown.texts.retain(|text| !text.shape.galley.elided);
-        let texts = shown.whole().into_iter().map(|(rect, words)| (rect.left_top(), words));
-        (stage, texts.collect())
-    }
-
-    const SIZES: [[f32; 2]; 5] =
-        [[800.0, 600.0], [900.0, 600.0], [1024.0, 640.0], [1280.0, 720.0], [1920.0, 1080.0]];
-
-    fn asked(scene: &str, is_of_one: bool) -> (Studio, AnalysisWorker) {
-        let mut studio = Studio::new(Scene::built_in(scene).unwrap());
-        studio.apply(StageCommand::Instrument(Instrument::Advice));
-        studio.apply(ViewCommand::AdviseOnOneBody(is_of_one));
-        let worker = AnalysisWorker::new(studio.analysis_request());
-        (studio, worker)
-    }
-
-    #[test]
-    fn no_row_of_the_table_covers_the_inspector() {
-        let (mut studio, mut worker) = asked("spring", false);
-        judge(&mut studio, &mut worker, 4);
-        studio.apply(RunCommand::ToggleInspector);
-        for size in SIZES {
-            let (stage, texts) = shown(&studio, size);
-            let beside = |(at, _): &&(Pos2, String)| at.x > stage.right();
-            let mut titles = texts.iter().filter(|(at, words)| at.y > 40.0 && words == "Edit");
-            let title = titles.next().expect("a title").0.y;
-            let is_over = |(at, words): &&(Pos2, String)| {
-                (at.y - title).abs() < 9.0 && !["Edit", "↺ Restore all", "×"].contains(&&**words)
-            };
-            let over: Vec<_> = texts.iter().filter(beside).filter(is_over).collect();
-            assert!(over.is_empty(), "{size:?}: {over:?}");
-        }
-    }
-
-    /// Works until `count` methods are judged.
-    fn judge(studio: &mut Studio, worker: &mut AnalysisWorker, count: usize) {
-        while studio.viewer.advice().is_none_or(|advice| advice.advised.len() < count) {
-            worker.work();
-            accept_findings(&mut studio.deck, &mut studio.viewer, worker.findings());
-        }
-    }
-
-    #[test]
-    fn every_column_is_fully_visible_and_the_stage_keeps_its_room() {
-        let (mut studio, mut worker) = asked("spring", false);
-        let wanted = studio.scene().methods_for_games().count();
-        judge(&mut studio, &mut worker, wanted);
-        for size in SIZES {
-            let (stage, texts) = shown(&studio, size);
-            let stage_to = size[0] * (1.0 - panels::INSTRUMENTS);
-            assert!((stage.right() - stage_to).abs() < 1.0, "{size:?}: {stage:?}");
-            for criterion in &CRITERIA {
-                // The name of the criterion also appears above the table, before its recommendation.
-                let at = texts.iter().filter(|(_, text)| text == criterion.name());
-                let head = at.map(|(at, _)| *at).max_by(|a, b| a.y.total_cmp(&b.y));
-                let head = head.unwrap_or_else(|| panic!("{size:?}: {texts:?}"));
-                let is_under = |(at, text): &&(Pos2, String)| {
-                    text.starts_with('×') && at.y > head.y && (at.x - head.x).abs() < 12.0
-                };
-                assert!(texts.iter().any(|text| is_under(&text)), "{size:?}: {head:?} {texts:?}");
-                let taken = |(at, text): &&(Pos2, String)| text.starts_with('×') && at.y < head.y;
-                let taken = texts.iter().filter(taken).count();
-                assert_eq!(taken, CRITERIA.len(), "substeps of the answer, {size:?}: {texts:?}");
-                let is_named =
-                    |(at, text): &&(Pos2, String)| text == "Semi-implicit Euler" && at.y < head.y;
-                assert!(texts.iter().any(|text| is_named(&text)), "{size:?}: {texts:?}");
-            }
-        }
-    }
-
-    #[test]
-    fn method_names_in_the_table_have_one_type_size() {
-        let (mut studio, mut worker) = asked("spring", false);
-        judge(&mut studio, &mut worker, 8);
-        for size in SIZES {
-            let mut window = TestWindow::new(size);
-            let mut frame = || window.show(Vec::new(), |ui| panels::show(ui, &studio).1);
-            (0..2).for_each(|_| drop(frame()));
-            let (stage, shown) = frame();
-            // The names in the recommendations are in strong type.
-            let size_of_name = |text: &ShownText| {
-                let galley = &text.shape.galley;
-                let font = &galley.job.sections.first()?.format.font_id;
-                let is_name = studio.entries().iter().any(|it| it.method.name == galley.text());
-                let is_plain = font.family == FontFamily::Proportional;
-                // The methods below the stage appear beside their digits.
-                let is_beside =
-                    text.shape.pos.x > stage.right() && text.shape.pos.y < stage.bottom();
-                (is_name && is_plain && is_beside).then_some(font.size)
-            };
-            let sizes: Vec<f32> = shown.texts.iter().filter_map(size_of_name).collect();
-            let is_one = sizes.iter().all(|other| *other == sizes[0]);
-            assert!(sizes.len() > 4 && is_one, "{size:?}: {sizes:?}");
-        }
-    }
-
-    #[test]
-    fn the_answer_above_the_table_appears_with_the_first_method_and_grows() {
-        let (mut studio, mut worker) = asked("spring", false);
-        let of = |studio: &Studio, words: &str| {
-            let (_, texts) = shown(studio, [1280.0, 720.0]);
-            let found = texts.iter().find(|(_, text)| text == words).map(|(at, _)| at.y);
-            found.unwrap_or_else(|| panic!("{words}: {texts:?}"))
-        };
-        let wanted = studio.scene().methods_for_games().count();
-        let told = |done| format!("At 60 Hz, the best of {done} of {wanted} methods judged:");
-        judge(&mut studio, &mut worker, 1);
-        of(&studio, &told(1));
-        // Explicit Euler grows under any number of substeps.
-        of(&studio, "none yet");
-        judge(&mut studio, &mut worker, 2);
-        of(&studio, &told(2));
-        // The cells of the table have more words, so this text is the recommendation.
-        assert!(of(&studio, "×1") < of(&studio, "method"));
-    }
-
-    #[test]
-    fn advice_can_be_limited_to_the_selected_body() {
-        let counts = |is_of_one: bool| {
-            let (mut studio, mut worker) = asked("harbour", is_of_one);
-            judge(&mut studio, &mut worker, 2);
-            let (_, texts) = shown(&studio, [1280.0, 720.0]);
-            assert!(texts.iter().any(|(_, text)| text == "spring alone"), "{texts:?}");
-            let whose = texts.iter().any(|(_, text)| text.ends_with(", all bodies"));
-            assert_eq!(whose, !is_of_one, "{texts:?}");
-            let euler = &studio.viewer.advice().unwrap().advised[1];
-            assert_eq!(euler.spec.method.id, "semi-implicit-euler");
-            euler.met[0].met().unwrap().evaluations_per_s
-        };
-        assert_eq!([counts(true), counts(false)], [60.0, 120.0]);
-        // A lane's verdict is about one body, and the advice is too, until the user asks for all bodies.
-        let studio = Studio::new(Scene::built_in("harbour").unwrap());
-        assert!(studio.display().advises_on_one_body);
-    }
-
-    #[test]
-    fn the_code_of_the_method_on_the_stage_is_shown_with_a_copy_button() {
-        let (mut studio, mut worker) = asked("spring", false);
-        judge(&mut studio, &mut worker, 3);
-        studio.apply(RunCommand::SetLane(LaneSpec { substeps: 2, ..studio.entries()[0] }));
-        let beside = |studio: &Studio| -> Vec<String> {
-            let mut window = TestWindow::new([1280.0, 800.0]);
-            (0..2).for_each(|_| drop(window.panels(studio, Vec::new())));
-            window.panels(studio, Vec::new()).1.words()
-        };
-        let words = beside(&studio);
-        let has = |words: &[String], of: &str| words.iter().any(|text| text.contains(of));
-        assert!(has(&words, "Explicit Euler: 2 calls a tick, h = 1/120 s"), "{words:?}");
-        assert!(has(&words, "pub fn explicit_euler"), "{words:?}");
-        studio.apply(StageCommand::Pick(1));
-        studio.apply(ViewCommand::Language(Language::CSharp));
-        let words = beside(&studio);
-        assert!(has(&words, "Semi-implicit Euler: 1 call a tick, h = 1/60 s"), "{words:?}");
-        assert!(has(&words, "public static void Step") && has(&words, "Copy C#"), "{words:?}");
-    }
-
-    #[test]
-    fn a_missing_reserve_is_marked_in_the_answer_and_its_tooltip() {
-        for (slowest_hz, factor, marks) in [(20, 1.0, 1), (60, 1.4, 1), (20, 1.4, 0)] {
-            let met = CriterionMet {
-                tick_hz: 60.into(),
-                substeps: 1,
-                evaluations_per_s: 60.0,
-                cost_per_s: 60.0,
-                are_margins_searched: true,
-                slowest_hz: Some(slowest_hz),
-                stiffness_factor: Some(factor),
-                limited_by: Some("stiffness".into()),
-            };
-            let tooltip = cell_tooltip(&met);
-            assert_eq!(tooltip.matches("no reserve").count(), marks, "{tooltip}");
-            let mut window = TestWindow::new([1280.0, 720.0]);
-            let mut frame = || {
-                window
-                    .show(Vec::new(), |ui| taken_line(ui, ("Euler", Color32::WHITE), &met, None))
-                    .1
-            };
-            drop(frame());
-            let shown =
-                frame().whole().into_iter().filter(|(_, text)| text.contains("(only just)"));
-            assert_eq!(shown.count(), marks, "{slowest_hz} Hz, {factor}");
-        }
-    }
-}
+mod tests;

@@ -36,6 +36,9 @@ pub(super) const TIMES_OF_TIMELINE: f32 = 560.0;
 /// Minimum width and height of a stage that shows the scale of tick rates.
 pub(super) const RATE_SCALE: [f32; 2] = [320.0, 280.0];
 
+/// Minimum width and height of a stage that shows the button to fit its view.
+pub(super) const FIT: [f32; 2] = [160.0, 110.0];
+
 // Constants from here on are widths of a panel, or of a part of it.
 pub(super) const TIME_IN_TOP_BAR: f32 = 48.0;
 /// The timeline has a name at its left, and the used memory at its right.

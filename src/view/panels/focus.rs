@@ -49,23 +49,21 @@ mod tests {
     use crate::studio::{StageCommand, Studio};
     use crate::view::testing::TestWindow;
 
+    fn tab() -> Event {
+        let (key, modifiers) = (Key::Tab, Modifiers::NONE);
+        Event::Key { key, physical_key: None, pressed: true, repeat: false, modifiers }
+    }
+
     #[test]
     fn each_press_of_tab_puts_a_visible_ring_on_the_focused_widget() {
         let mut studio = Studio::new(Scene::built_in("spring").unwrap());
         studio.apply(StageCommand::ToggleRace);
         let mut window = TestWindow::new([1280.0, 720.0]);
         let screen = Rect::from_min_size(egui::Pos2::ZERO, window.size);
-        let tab = Event::Key {
-            key: Key::Tab,
-            physical_key: None,
-            pressed: true,
-            repeat: false,
-            modifiers: Modifiers::NONE,
-        };
         window.panels(&studio, Vec::new());
         let mut found = BTreeSet::new();
         for press in 0..80 {
-            window.panels(&studio, vec![tab.clone()]);
+            window.panels(&studio, vec![tab()]);
             // Lists scroll one frame later.
             window.panels(&studio, Vec::new());
             let shown = window.panels(&studio, Vec::new()).1;
@@ -82,5 +80,29 @@ mod tests {
             found.insert(format!("{id:?}"));
         }
         assert!(found.len() > 60, "{} widgets have had the focus", found.len());
+    }
+
+    #[test]
+    fn tab_reaches_the_tick_rate_first_then_the_methods_and_last_the_footer() {
+        let mut studio = Studio::new(Scene::built_in("harbour").unwrap());
+        studio.viewer.preferences.display.measure = false;
+        let mut window = TestWindow::new([1280.0, 720.0]);
+        window.panels(&studio, Vec::new());
+        let mut middles = Vec::new();
+        for _ in 0..9 {
+            window.panels(&studio, vec![tab()]);
+            window.panels(&studio, Vec::new());
+            let focused = window.context.memory(|memory| memory.focused()).unwrap();
+            middles.push(window.context.read_response(focused).unwrap().rect.center());
+        }
+        assert!(middles[0].x < 60.0 && middles[0].y < 600.0, "the scale of the rate: {middles:?}");
+        assert!(middles[1].x > 1200.0 && middles[1].y < 600.0, "the edge: {middles:?}");
+        let chips = &middles[2..7];
+        let are_in_row =
+            chips.windows(2).all(|pair| pair[0].x < pair[1].x && pair[0].y == pair[1].y);
+        assert!(
+            are_in_row && middles[7].y > chips[0].y && middles[8].y > chips[0].y,
+            "{middles:?}"
+        );
     }
 }

@@ -11,7 +11,7 @@ use super::focus;
 use super::number_field::NumberField;
 use crate::scene::{Action, check_entered, edited_values};
 use crate::stage::TakesEffect;
-use crate::studio::{Command, RunCommand, Studio};
+use crate::studio::{Command, RunCommand, Studio, ViewCommand};
 use crate::view::theme::palette;
 
 mod engine;
@@ -136,19 +136,36 @@ fn show_row(ui: &mut Ui, studio: &Studio, row: &Row, commands: &mut Vec<Command>
         let of = field.id.with(studio.deck.openings());
         let swept = sweep::show(ui, of, swept_reach, values, &name);
         commands.extend(swept.filter(|value| check(*value).is_ok()).map(set));
-        let slid = show_slider(ui, row, values, &name, slider);
-        commands.extend(slid.filter(|value| check(*value).is_ok()).map(set));
-        let (_, entered) = field.show(ui, vec2(number, LINE), check);
+        let (slid, value) = show_slider(ui, row, values, &name, slider);
+        let (dragged, entered) = field.show(ui, vec2(number, LINE), check);
+        if parameter.acts == TakesEffect::AtOnce {
+            slid.iter().chain([&dragged]).for_each(|it| hold_during_drag(it, studio, commands));
+        }
+        commands.extend(value.filter(|value| check(*value).is_ok()).map(set));
         commands.extend(entered.map(set));
         let about = format!("back to {} {}", values.opened, parameter.unit);
         restore_button(ui, values.differ(), &about, &name, || commands.push(set(values.opened)));
     });
 }
 
-/// Shows a slider around the scene's value. Returns the new value if the user moved the slider.
-fn show_slider(ui: &mut Ui, row: &Row, values: Values, name: &str, size: Vec2) -> Option<f64> {
+/// Lets time wait while a person drags a value of the run, so that the drag is one action.
+fn hold_during_drag(response: &Response, studio: &Studio, commands: &mut Vec<Command>) {
+    if response.is_pointer_button_down_on() && !studio.deck.is_tick_rate_held() {
+        commands.push(Command::View(ViewCommand::HoldTickRate));
+    }
+}
+
+/// Shows a slider around the scene's value, if its parameter has a range. Returns the slider's response, and the new
+/// value if the user moved the slider.
+fn show_slider(
+    ui: &mut Ui,
+    row: &Row,
+    values: Values,
+    name: &str,
+    size: Vec2,
+) -> (Option<Response>, Option<f64>) {
     let id = ui.scope_id().with((row.body, row.index, "reach"));
-    let fresh = SliderRange::of(row.parameter.range, values)?;
+    let Some(fresh) = SliderRange::of(row.parameter.range, values) else { return (None, None) };
     // A dragged slider keeps its range, although a fresh range would move with the value.
     let held = ui.data(|data| data.get_temp::<SliderRange>(id));
     let SliderRange { low, high, spacing } = held.unwrap_or(fresh);
@@ -167,7 +184,7 @@ fn show_slider(ui: &mut Ui, row: &Row, values: Values, name: &str, size: Vec2) -
     } else {
         ui.data_mut(|data| data.remove::<SliderRange>(id));
     }
-    (value != values.present).then_some(value)
+    (Some(response), (value != values.present).then_some(value))
 }
 
 /// Shows a line with a name at its left. `rest` lays out the remainder of the line. Its arguments are the widths of the

@@ -20,7 +20,7 @@ use crate::view::chart::legend::{self, Entry};
 use crate::view::theme::{TYPE, palette, strong_font};
 
 pub(in crate::view) use export::{csv, svg};
-use plot_set::PlotSet;
+use plot_set::{BeforeLine, PlotSet};
 
 mod by_loop;
 mod chart;
@@ -211,7 +211,9 @@ fn tab(ui: &mut Ui, name: &str, about: &str, is_chosen: bool) -> bool {
 fn plots(ui: &mut Ui, studio: &Studio, set: &PlotSet, commands: &mut Vec<Command>) {
     let entries = legend_entries(set);
     // If there is only one method, the table and the stage distinguish it from the exact solution.
-    let is_needed = set.styles.is_race || entries.len() > BESIDE_TITLE || is_picture(ui);
+    let has_before = set.plots.iter().any(|plot| plot.before.is_some());
+    let is_needed =
+        set.styles.is_race || has_before || entries.len() > BESIDE_TITLE || is_picture(ui);
     let has_legend =
         is_needed && ui.available_height() >= breakpoints::LEGEND && entries.len() <= MAX_IN_LEGEND;
     let may_be_beside = has_legend
@@ -358,19 +360,24 @@ fn legend_entries(set: &PlotSet) -> Vec<Entry> {
     let series = set.visible_styles().map(|(place, SeriesStyle { name, colour, dash, .. })| {
         // In solo mode, a lane has a number only if a digit selects its method.
         let name = match set.styles.is_race {
-            true => format!("{} {name}", place + 1),
+            true => format!("{} {name}", set.styles.number(place)),
             false => numbered(place, name),
         };
         let is_front = place == set.styles.front;
         Entry { name, colour: *colour, dash: *dash, is_front }
     });
     let SeriesStyles { exact, exact_colour: colour, .. } = &set.styles;
-    let has_exact = set.plots.iter().any(|plot| !plot.exact.is_empty());
+    let has_exact = !exact.is_empty() && set.plots.iter().any(|plot| !plot.exact.is_empty());
     let exact = has_exact.then(|| {
         let (name, dash) = (exact.clone(), [1.0, 0.0]);
         Entry { name, colour: *colour, dash, is_front: false }
     });
-    series.chain(exact).collect()
+    let before = set.plots.iter().find_map(|plot| plot.before.as_ref());
+    let before = before.map(|BeforeLine { name, colour, .. }| {
+        let (name, dash) = (format!("before: {name}"), [1.0, 0.0]);
+        Entry { name, colour: *colour, dash, is_front: false }
+    });
+    series.chain(exact).chain(before).collect()
 }
 
 /// Selects a lane of a race after a click on the lane's legend entry.

@@ -8,7 +8,7 @@ use egui::{Color32, Rect, RichText, Sense, Ui, Vec2, vec2};
 use super::breakpoints;
 use crate::loops::loop_lab::{LoopLab, LoopLane};
 use crate::run::csv_row;
-use crate::studio::{Command, Studio};
+use crate::studio::{Command, Studio, digit_of};
 use crate::view::chart::Primitive;
 use crate::view::chart::legend::{self, Entry};
 use crate::view::theme::{PanelPalette, colour, palette, strong_font};
@@ -127,7 +127,7 @@ fn on_stage<'a>(loops: &'a LoopLab, palette: &PanelPalette) -> Vec<ShownLane<'a>
 /// Returns the legend of the charts.
 fn legend_entries(loops: &LoopLab, lanes: &[ShownLane<'_>], palette: &PanelPalette) -> Vec<Entry> {
     let entry = |lane: &ShownLane<'_>| {
-        let name = format!("{} {}", lane.index + 1, lane.lane.card().name);
+        let name = format!("{} {}", digit_of(lane.index), lane.lane.card().name);
         let off = moments::off_the_plot(loops, lane.lane);
         let name = name + &off.map(|words| format!(" ({words})")).unwrap_or_default();
         Entry { name, colour: lane.colour, dash: lane.dash, is_front: lane.is_selected }

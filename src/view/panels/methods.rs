@@ -5,7 +5,7 @@ use egui::{FontId, Rect, Response, Sense, Stroke, StrokeKind, Ui, Vec2, pos2, ve
 use super::verdict::VerdictText;
 use super::{breakpoints, keycap, lanes};
 use crate::run::MenuIndex;
-use crate::studio::{Command, DIGITS, StageCommand, Studio};
+use crate::studio::{Command, DIGITS, StageCommand, Studio, digit_of};
 use crate::view::theme::{TYPE, palette, strong_font};
 
 /// Height of the first row, and of each further row, in points.
@@ -81,7 +81,7 @@ pub(super) fn height(ui: &Ui, studio: &Studio, room: f32, window: Vec2) -> f32 {
 /// Splits the methods into rows of this width. Each method has its name.
 fn rows(ui: &Ui, studio: &Studio, room: f32) -> Vec<Vec<usize>> {
     let (mut rows, mut left) = (Vec::<Vec<usize>>::new(), 0.0);
-    for entry in 0..studio.deck.offered().min(DIGITS) {
+    for entry in listed(studio) {
         let wide = width(ui, studio, entry, Naming::OneLine);
         match rows.last_mut().filter(|_| wide <= left) {
             Some(row) => row.push(entry),
@@ -98,7 +98,7 @@ fn rows(ui: &Ui, studio: &Studio, room: f32) -> Vec<Vec<usize>> {
 /// Shows the scene's methods, or else those with a digit. All have their names if there is room, if necessary in
 /// several rows or in two lines each. Returns the index of the method that has the pointer or the keyboard focus.
 pub(super) fn show(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) -> Option<usize> {
-    let count = studio.deck.offered().min(DIGITS);
+    let listed = listed(studio);
     let room = ui.available_width();
     let mut pointed = None;
     let mut show = |ui: &mut Ui, entry: MenuIndex, naming: Naming| {
@@ -117,7 +117,7 @@ pub(super) fn show(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) ->
         return pointed;
     }
     let all = |naming: &Naming| {
-        let widths = (0..count).map(|entry| width(ui, studio, entry, *naming) + BETWEEN);
+        let widths = listed.iter().map(|&entry| width(ui, studio, entry, *naming) + BETWEEN);
         widths.sum::<f32>() - BETWEEN
     };
     let naming = Naming::ALL.into_iter().find(|naming| all(naming) <= room);
@@ -125,7 +125,7 @@ pub(super) fn show(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) ->
     let naming = naming.unwrap_or(Naming::None);
     ui.horizontal_centered(|ui| {
         ui.spacing_mut().item_spacing.x = between;
-        for entry in 0..count {
+        for &entry in &listed {
             if width(ui, studio, entry, naming) > ui.available_width() {
                 break;
             }
@@ -135,8 +135,15 @@ pub(super) fn show(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) ->
     pointed
 }
 
+/// Returns the methods with a digit, and the active one if it has none.
+fn listed(studio: &Studio) -> Vec<MenuIndex> {
+    let further = Some(studio.active()).filter(|active| *active >= DIGITS);
+    (0..studio.deck.offered().min(DIGITS)).chain(further).collect()
+}
+
+/// Returns the digit of a method's key, or a dot if it has no key.
 fn digit(entry: MenuIndex) -> String {
-    ((entry + 1) % DIGITS).to_string()
+    if entry < DIGITS { digit_of(entry).to_string() } else { "•".into() }
 }
 
 fn width(ui: &Ui, studio: &Studio, entry: MenuIndex, naming: Naming) -> f32 {
@@ -203,6 +210,7 @@ fn paint(
 mod tests {
     use super::*;
     use crate::scene::Scene;
+    use crate::studio::StageCommand;
     use crate::view::panels;
     use crate::view::testing::TestWindow;
 
@@ -215,6 +223,18 @@ mod tests {
         });
         let joined = |word: &str| word.replace("-\n", "-").replace('\n', " ");
         shown.words().iter().map(|word| joined(word)).collect()
+    }
+
+    #[test]
+    fn an_active_method_without_a_digit_is_listed_too() {
+        let mut studio = Studio::new(Scene::built_in("stiff").unwrap());
+        let active = (0..studio.entries().len()).find(|&entry| {
+            studio.apply(StageCommand::Pick(entry));
+            studio.active() >= DIGITS
+        });
+        let name = studio.lane_name(active.expect("the menu is longer"));
+        assert!(words(&studio, 1900.0).contains(&name));
+        assert!(words(&studio, 800.0).contains(&"•".to_owned()));
     }
 
     #[test]

@@ -1,11 +1,11 @@
 //! The panels around the stage. They read the studio and return commands, but change nothing.
 
 use egui::epaint::PathShape;
-use egui::{Frame, Key, Margin, Pos2, Rect, Stroke, Ui, Vec2, pos2, vec2};
+use egui::{Align2, FontId, Frame, Key, Margin, Pos2, Rect, Stroke, Ui, Vec2, pos2, vec2};
 
 use super::theme::palette;
 use crate::run::race::Mode;
-use crate::studio::{Command, Dialog, Splits, Studio, ViewCommand};
+use crate::studio::{Command, Dialog, Pace, Splits, Studio, ViewCommand};
 
 mod advice;
 mod annotations;
@@ -25,6 +25,7 @@ mod my_spring;
 mod number_field;
 mod one_step;
 mod opening;
+mod over_stage;
 mod parts;
 mod ranges;
 mod rate_scale;
@@ -74,12 +75,23 @@ const EDGE: Vec2 = vec2(16.0, 80.0);
 const INSPECTOR: f32 = 0.62;
 const MIN_INSPECTOR: f32 = 130.0;
 
+/// Returns the frame rate and the time of a frame in words, if a person asks for them and there is real time.
+fn frame_rate(studio: &Studio) -> Option<String> {
+    let ms = studio.viewer.frame_ms.filter(|_| studio.display().frame_rate)?;
+    let rate = match studio.viewer.pace? {
+        Pace::Measured { frames_per_second, .. } => format!("{frames_per_second:.0} frames/s · "),
+        Pace::Unknown => String::new(),
+    };
+    Some(format!("{rate}{ms:.1} ms a frame"))
+}
+
 /// Shows all panels. Returns the commands and the rectangle left for the stage, in points.
 pub(super) fn show(ui: &mut Ui, studio: &Studio) -> (Vec<Command>, Rect) {
     let mut commands = Vec::new();
     let whole = ui.max_rect();
     let size = whole.size();
     if size.x < breakpoints::PANELS[0] || size.y < breakpoints::PANELS[1] {
+        over_stage::quit_question(ui, studio, whole);
         return (commands, whole);
     }
     if studio.display().measure && size.y >= breakpoints::TOP_BAR {
@@ -88,11 +100,13 @@ pub(super) fn show(ui: &mut Ui, studio: &Studio) -> (Vec<Command>, Rect) {
             .frame(parts::frame(palette(ui).panel));
         panel.show(ui, |ui| top_bar::show(ui, studio, &mut commands));
     }
+    // The Tab key reaches the stage before the methods, and the footer last.
+    let mut footer = None;
     if size.y >= breakpoints::FOOTER {
         let panel = egui::Panel::bottom("footer")
             .exact_size(footer::HEIGHT)
             .frame(parts::frame(palette(ui).panel));
-        panel.show(ui, |ui| footer::show(ui, studio, &mut commands));
+        footer = Some(panel.show(ui, reserve).inner);
     }
     let mut pointed = None;
     // The table of a race already has all the methods.
@@ -100,19 +114,16 @@ pub(super) fn show(ui: &mut Ui, studio: &Studio) -> (Vec<Command>, Rect) {
         && (studio.mode() == Mode::Solo || !studio.display().measure)
         && size.y >= breakpoints::LANES
         && !(studio.display().measure && studio.display().enlarged);
+    let mut methods = None;
     if has_methods {
         let frame = parts::frame(palette(ui).panel);
         let room = ui.available_width() - frame.inner_margin.sum().x;
         let height = methods::height(ui, studio, room, size);
         let panel = egui::Panel::bottom("methods").exact_size(height).frame(frame);
-        panel.show(ui, |ui| pointed = methods::show(ui, studio, &mut commands));
+        methods = Some(panel.show(ui, reserve).inner);
     }
     if studio.display().measure {
-        let in_table = round_the_stage(ui, studio, size, &mut commands);
-        pointed = pointed.or(in_table);
-    }
-    if pointed != studio.viewer.pointed_lane() {
-        commands.push(Command::View(ViewCommand::PointAt(pointed)));
+        pointed = round_the_stage(ui, studio, size, &mut commands);
     }
     if let Some(tour) = studio.viewer.tour() {
         let height = guide::height(ui.available_height());
@@ -129,14 +140,29 @@ pub(super) fn show(ui: &mut Ui, studio: &Studio) -> (Vec<Command>, Rect) {
                 .frame(frame)
                 .show(ui, |ui| instruments::show_alone(ui, studio, &mut commands));
         }
-        edge(ui, stage, &mut commands);
         if rate_scale::is_shown(studio, stage.size()) {
             rate_scale::show(ui, studio, stage, &mut commands);
         }
+        edge(ui, stage, &mut commands);
         if studio.display().enlarged {
             stage.min.x = stage.max.x;
         }
     }
+    if let Some(words) = frame_rate(studio) {
+        let (at, font) = (stage.right_bottom() - vec2(8.0, 5.0), FontId::proportional(11.0));
+        ui.painter().text(at, Align2::RIGHT_BOTTOM, words, font, palette(ui).text);
+    }
+    over_stage::fit(ui, studio, stage, &mut commands);
+    if let Some(mut ui) = methods.map(|room| within(ui, room)) {
+        pointed = methods::show(&mut ui, studio, &mut commands).or(pointed);
+    }
+    if pointed != studio.viewer.pointed_lane() {
+        commands.push(Command::View(ViewCommand::PointAt(pointed)));
+    }
+    if let Some(mut ui) = footer.map(|room| within(ui, room)) {
+        footer::show(&mut ui, studio, &mut commands);
+    }
+    over_stage::quit_question(ui, studio, stage);
     if studio.display().help {
         help::show(ui, studio.viewer.preferences.is_page, &mut commands);
     }
@@ -162,6 +188,20 @@ pub(super) fn show(ui: &mut Ui, studio: &Studio) -> (Vec<Command>, Rect) {
     }
     focus::show(ui);
     (commands, stage)
+}
+
+/// Takes the room of a panel for a later [`within`], and returns it.
+fn reserve(ui: &mut Ui) -> Rect {
+    let room = ui.available_rect_before_wrap();
+    ui.allocate_rect(room, egui::Sense::hover());
+    room
+}
+
+/// Returns the inside of a panel whose room was reserved.
+fn within(ui: &mut Ui, room: Rect) -> Ui {
+    let mut inside = ui.new_child(egui::UiBuilder::new().max_rect(room));
+    inside.shrink_clip_rect(room.expand(4.0));
+    inside
 }
 
 /// Shows the table, the timeline and the instruments in a window of this size. Returns the index of the lane that has

@@ -58,11 +58,14 @@ pub(super) fn show(ui: &Ui, studio: &Studio, stage: Rect, commands: &mut Vec<Com
         let tick_hz = studio.race().tick_hz();
         let words = format!("tick rate {tick_hz:.3} Hz: drag it, arrow keys change it");
         response.widget_info(|| WidgetInfo::labeled(egui::Role::Slider, true, &words));
-        if response.is_pointer_button_down_on() && !studio.deck.is_tick_rate_held() {
+        // Escape takes the rate out of the hand, until the next press.
+        let is_pressed = ui.input(|input| input.pointer.any_pressed());
+        if response.is_pointer_button_down_on() && is_pressed {
             commands.push(Command::View(ViewCommand::HoldTickRate));
         }
         // The release may be the only event of a drag.
         let is_moved = response.dragged() || response.drag_stopped() || response.clicked();
+        let is_moved = is_moved && (is_pressed || studio.deck.is_tick_rate_held());
         if let Some(at) = response.interact_pointer_pos().filter(|_| is_moved) {
             let picked = TickRate::from(rate_at(line, at.y));
             // A click on the handle keeps a tick rate that no point of the scale has.
@@ -92,10 +95,12 @@ pub(super) fn show(ui: &Ui, studio: &Studio, stage: Rect, commands: &mut Vec<Com
 /// Shows the tick rate as a number to drag or to type.
 pub(super) fn number(
     ui: &mut Ui,
-    tick_hz: TickRate,
+    studio: &Studio,
     size: Vec2,
     commands: &mut Vec<Command>,
 ) -> Response {
+    let loops = studio.loop_lab();
+    let tick_hz = loops.map_or(studio.race().tick_hz(), |loops| loops.scene().tick_hz);
     let rate = NumberField {
         id: ui.scope_id().with("tick rate"),
         value: f64::from(tick_hz),
@@ -107,7 +112,10 @@ pub(super) fn number(
     if response.drag_started() {
         commands.push(Command::View(ViewCommand::HoldTickRate));
     }
-    let entered = entered.and_then(|value| entered_tick_rate(value).ok());
+    // Escape has taken the rate out of the hand.
+    let is_over = response.dragged() && !response.drag_started() && loops.is_none();
+    let is_over = is_over && !studio.deck.is_tick_rate_held();
+    let entered = entered.filter(|_| !is_over).and_then(|value| entered_tick_rate(value).ok());
     commands.extend(entered.map(|tick_hz| Command::Stage(StageCommand::TickHz(tick_hz))));
     response
 }

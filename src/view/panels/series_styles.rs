@@ -5,7 +5,7 @@ use egui::Color32;
 use crate::loops::POLICIES;
 use crate::loops::loop_lab::LoopLab;
 use crate::run::race::Mode;
-use crate::studio::{Studio, shown_s};
+use crate::studio::{Studio, digit_of, shown_s};
 use crate::view::theme::{colour, palette_of};
 
 /// Styles of the curves in a plot.
@@ -16,7 +16,9 @@ pub(super) struct SeriesStyles {
     pub(super) front: usize,
     /// Whether several methods or loops run at a time, which their digits then distinguish.
     pub(super) is_race: bool,
-    /// Name of the exact curve in the legend.
+    /// Whether the curves are those of loops, whose numbers are the digits of their keys.
+    pub(super) are_loops: bool,
+    /// Name of the exact curve in the legend; empty if there is none.
     pub(super) exact: String,
     pub(super) exact_colour: Color32,
     /// The displayed moment, and the length of the run, in seconds.
@@ -34,6 +36,11 @@ pub(super) struct SeriesStyle {
 }
 
 impl SeriesStyles {
+    /// Returns the number of the curve with this index.
+    pub(super) fn number(&self, index: usize) -> usize {
+        if self.are_loops { digit_of(index) } else { index + 1 }
+    }
+
     /// Creates the styles of the run's methods, or those of the loops if the loop lab is open.
     pub(super) fn of(studio: &Studio) -> Self {
         match studio.loop_lab() {
@@ -44,6 +51,7 @@ impl SeriesStyles {
 
     fn of_methods(studio: &Studio) -> Self {
         let palette = palette_of(studio.display().theme);
+        let truth = &studio.race().truth().bodies()[studio.view().body];
         let series = studio.entries().iter().map(|spec| {
             let (colour, dash) = palette.style(studio.entries(), spec);
             let [id, name] = [spec.method.id, spec.method.name];
@@ -54,7 +62,11 @@ impl SeriesStyles {
             series: series.collect(),
             front: studio.active(),
             is_race: studio.mode() == Mode::Race,
-            exact: studio.race().truth().bodies()[studio.view().body].truth_in_words(),
+            are_loops: false,
+            exact: match truth.halted() {
+                Some(halt) if halt.failure.is_foreseen() => String::new(),
+                _ => truth.truth_in_words(),
+            },
             exact_colour: palette.exact,
             now_s: shown_s(&studio.deck, &studio.viewer),
             length_s: studio.scene().seconds,
@@ -71,6 +83,7 @@ impl SeriesStyles {
             series: series.collect(),
             front: loops.selected(),
             is_race: true,
+            are_loops: true,
             exact: loops.body().kind.truth.id().into(),
             exact_colour: palette.exact,
             now_s: loops.now_ns() as f64 / 1e9,

@@ -44,6 +44,10 @@ const NEAR_THE_BOUND: f64 = 0.75;
 /// Minimum distance between two numbers along the track, and between two marks, in points.
 const NUMBERS_APART: f64 = 120.0;
 const MARKS_APART: f32 = 15.0;
+/// Height of a check above the middle of the track, clear of the handle, and minimum distance between two passed checks
+/// along the track, in points.
+const CHECK_HEIGHT: f32 = 11.0;
+const CHECKS_APART: f32 = 9.0;
 /// Number of ticks in the closest view.
 const MIN_TICKS: f64 = 12.0;
 /// Maximum number of marks that a tooltip lists.
@@ -79,6 +83,7 @@ pub(super) fn show(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) {
     let painter = ui.painter().clone();
     groove.write(&painter, span, track.palette);
     draw_track(&painter, studio, &events, &track);
+    draw_checks(&painter, studio, &track);
     groups.iter().for_each(|group| draw_group(&painter, &track, group));
     // The handle is at the same moment as the stage and the plots.
     let shown_s = shown_s(&studio.deck, &studio.viewer);
@@ -101,8 +106,13 @@ pub(super) fn show(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) {
             commands.push(Command::View(ViewCommand::AskForRun));
             ui.close();
         }
+        let is_compared = studio.deck.compared().is_some();
+        if is_compared && ui.button("× End the comparison (Esc)").clicked() {
+            commands.push(Command::View(ViewCommand::CloseComparison));
+            ui.close();
+        }
     });
-    tooltip(ui, response, &track, (&context, &groups));
+    tooltip(ui, studio, response, &track, (&context, &groups));
 }
 
 fn groove(studio: &Studio, room: Rect) -> Option<Groove> {
@@ -330,6 +340,39 @@ fn draw_track(painter: &Painter, studio: &Studio, events: &[Event], track: &Time
     }
 }
 
+/// Draws ✓ or ✗ above the track at each check that the run has reached. A ✓ too close to the last one is left out.
+fn draw_checks(painter: &Painter, studio: &Studio, track: &TimelineView<'_>) {
+    let mut free = f32::NEG_INFINITY;
+    for (tick, is_same) in checks(studio) {
+        let x = track.x(tick);
+        if !track.groove.along.contains(x) || is_same && x < free {
+            continue;
+        }
+        free = x + CHECKS_APART;
+        let at = |points: &[[f32; 2]]| {
+            points
+                .iter()
+                .map(|&[dx, dy]| pos2(x + dx, track.groove.y - CHECK_HEIGHT + dy))
+                .collect()
+        };
+        let (signs, colour): (&[&[[f32; 2]]], _) = match is_same {
+            true => (&[&[[-3.0, 0.0], [-1.0, 2.5], [3.0, -3.0]]], track.palette.good),
+            false => {
+                (&[&[[-3.0, -3.0], [3.0, 3.0]], &[[-3.0, 3.0], [3.0, -3.0]]], track.palette.bad)
+            }
+        };
+        for sign in signs {
+            painter.add(Shape::line(at(sign), Stroke::new(1.6, colour)));
+        }
+    }
+}
+
+/// Returns each tick with checks that the run has reached, and whether all of its lanes had the recorded state.
+fn checks(studio: &Studio) -> impl Iterator<Item = (u64, bool)> {
+    let ticks = studio.run().checked().chunk_by(|one, next| one.tick == next.tick);
+    ticks.map(|checks| (checks[0].tick, checks.iter().all(|check| check.is_same)))
+}
+
 /// Returns the colour of the selected lane on the track. It is dimmed in a race, because the lanes of a race have many
 /// colours.
 fn strength(colour: Color32, mode: Mode, palette: &PanelPalette) -> Color32 {
@@ -426,6 +469,7 @@ fn memory(bytes: usize, limit: usize) -> String {
 /// Shows the events under the pointer, or the moment if there are no events.
 fn tooltip(
     ui: &Ui,
+    studio: &Studio,
     response: Response,
     track: &TimelineView<'_>,
     (context, groups): (&Context<'_>, &[MarkGroup]),
@@ -441,7 +485,12 @@ fn tooltip(
         ui.style_mut().wrap_mode = Some(egui::TextWrapMode::Extend);
         let near = |group: &&MarkGroup| (-6.0..=MARKS_APART - 6.0).contains(&(x - group.x));
         let Some(group) = groups.iter().rfind(near) else {
-            ui.label(track.times.moment(track.tick(x)));
+            let near = |(tick, _): &(u64, bool)| (track.x(*tick) - x).abs() < 0.5 * CHECKS_APART;
+            ui.label(match checks(studio).find(near) {
+                Some((tick, true)) => format!("{}: as recorded", track.times.moment(tick)),
+                Some((tick, false)) => format!("{}: not the same run", track.times.moment(tick)),
+                None => track.times.moment(track.tick(x)),
+            });
             return;
         };
         group.marks.iter().take(MAX_TOLD).for_each(|mark| drop(ui.label(context.text(mark))));

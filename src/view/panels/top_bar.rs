@@ -242,8 +242,7 @@ fn multiple(percent: u32) -> String {
 }
 
 fn tick_rate(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) {
-    let tick_hz = studio.loop_lab().map_or(studio.clock().tick_hz(), |loops| loops.scene().tick_hz);
-    let response = rate_scale::number(ui, tick_hz, vec2(76.0, 26.0), commands);
+    let response = rate_scale::number(ui, studio, vec2(76.0, 26.0), commands);
     response.on_hover_text("ticks per simulated second: drag it, or click and type ([ and ])");
 }
 

@@ -3,7 +3,7 @@ use egui::{Modifiers, pos2};
 use super::*;
 use crate::scene::Scene;
 use crate::stage::{Whose, compose};
-use crate::studio::{HeldBody, RunCommand, StageCommand, Step, ViewCommand};
+use crate::studio::{HeldBody, RunCommand, StageCommand, Step, ViewCommand, shown_state};
 use crate::view::testing::TestWindow;
 
 /// A studio with a stage, and the pointer over it.
@@ -243,7 +243,7 @@ fn a_click_on_an_overlaid_body_brings_its_lane_to_the_front() {
 fn the_wheel_zooms_a_drag_of_the_sea_pans_and_a_double_click_fits() {
     let mut table = Table::new("pendulum");
     table.studio.apply(ViewCommand::TogglePause);
-    let at = STAGE.min + vec2(30.0, 400.0);
+    let at = table.body() + vec2(-60.0, -40.0);
     let under = |table: &Table, at: Pos2| table.picture().cells[0].metres((at - STAGE.min).into());
     let before = under(&table, at);
     table.frame(vec![
@@ -281,5 +281,108 @@ fn the_wheel_zooms_a_drag_of_the_sea_pans_and_a_double_click_fits() {
         assert_eq!(table.studio.view().zoom_pan(0).zoom(), 2.0);
         table.studio.apply(command);
         assert_eq!(table.studio.view().zoom_pan(0), ZoomPan::default());
+    }
+}
+
+/// Lets time run for a frame of 50 ms, and lays it out.
+fn run_frame(table: &mut Table, events: Vec<Event>) -> Vec<Command> {
+    table.studio.advance(50_000_000);
+    table.frame(events)
+}
+
+#[test]
+fn a_press_where_the_mass_was_up_to_a_fifth_of_a_second_ago_takes_it() {
+    for scene in ["harbour", "pendulum", "orbit"] {
+        for late in 0..6 {
+            let mut table = Table::new(scene);
+            (0..12).for_each(|_| _ = run_frame(&mut table, Vec::new()));
+            let aimed = table.body();
+            for frame in 0..late {
+                let events =
+                    if frame + 1 < late { Vec::new() } else { vec![Event::PointerMoved(aimed)] };
+                run_frame(&mut table, events);
+            }
+            let body = &table.studio.race().entrants()[0].lane.bodies()[0];
+            let q = shown_state(&table.studio.deck, &table.studio.viewer, body).0;
+            let view = table.studio.view().clone();
+            table.press(aimed);
+            let is_far = table.body().distance(aimed) > 80.0;
+            if late <= 3 {
+                let held = table.held().unwrap_or_else(|| panic!("{scene}, {late} frames"));
+                let is_near = held.q.iter().zip(&q).all(|(held, q)| (held - q).abs() < 1e-4);
+                assert!(is_near, "{scene}, {late} frames: {:?}, {q:?}", held.q);
+            } else {
+                assert!(table.held().is_none() || !is_far, "{scene}: it is too late");
+            }
+            table.release(aimed, false);
+            assert_eq!(*table.studio.view(), view);
+        }
+    }
+}
+
+#[test]
+fn a_drag_of_the_water_pans_only_a_zoomed_view() {
+    for scene in ["harbour", "pendulum", "ship"] {
+        for times in [1.0, 1.5, 0.5] {
+            let mut table = Table::new(scene);
+            table.studio.apply(ViewCommand::TogglePause);
+            let zoom_pan = ZoomPan::default().zoomed(times, [0.0; 2]);
+            table.studio.apply(ViewCommand::ZoomPan { body: 0, zoom_pan });
+            let sea = STAGE.min + vec2(300.0, 470.0);
+            let zoomed_as = table
+                .picture()
+                .cells
+                .iter()
+                .find(|cell| cell.rect.contains((sea - STAGE.min).into()))
+                .unwrap()
+                .zoomed_as;
+            if zoomed_as != 0 {
+                table.studio.apply(ViewCommand::ZoomPan { body: zoomed_as, zoom_pan });
+            }
+            let before = table.studio.view().zoom_pan(zoomed_as);
+            table.press(sea);
+            table.move_to(sea + vec2(30.0, -20.0));
+            table.release(sea + vec2(30.0, -20.0), false);
+            let is_panned = table.studio.view().zoom_pan(zoomed_as) != before;
+            assert_eq!(is_panned, times != 1.0, "{scene} at {times}");
+        }
+    }
+}
+
+#[test]
+fn turns_of_the_wheel_anywhere_keep_the_body_in_view() {
+    for (scene, is_race) in
+        [("harbour", false), ("ship", true), ("pendulum", false), ("orbit", false)]
+    {
+        for (turn, at) in [(60.0, [0.05, 0.9]), (60.0, [0.95, 0.1]), (-60.0, [0.9, 0.9])] {
+            let mut table = Table::new(scene);
+            if is_race {
+                table.studio.apply(StageCommand::ToggleRace);
+            }
+            (0..20).for_each(|_| table.studio.tick());
+            let at = STAGE.min + vec2(at[0], at[1]) * STAGE.size();
+            for notch in 0..12 {
+                table.frame(vec![
+                    Event::PointerMoved(at),
+                    Event::MouseWheel {
+                        unit: egui::MouseWheelUnit::Point,
+                        delta: vec2(0.0, turn),
+                        phase: egui::TouchPhase::Move,
+                        source: egui::MouseWheelSource::Unknown,
+                        modifiers: Modifiers::NONE,
+                    },
+                ]);
+                for _ in 0..8 {
+                    run_frame(&mut table, Vec::new());
+                    for cell in table.picture().cells {
+                        let lane = cell.lane;
+                        let own = |grip: &Grip| matches!(grip.whose, Whose::Lane { lane: of, .. } if of == lane);
+                        let grips: Vec<_> = cell.grips(&table.studio).filter(own).collect();
+                        let is_seen = grips.iter().any(|grip| cell.rect.contains(grip.at));
+                        assert!(is_seen, "{scene}, notch {notch} of {turn}: {grips:?}");
+                    }
+                }
+            }
+        }
     }
 }

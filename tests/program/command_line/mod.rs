@@ -22,6 +22,7 @@ mod loops;
 mod manifest;
 mod mishaps;
 mod mistakes;
+mod mutations;
 mod own_methods;
 mod port;
 mod recordings;

@@ -15,7 +15,7 @@ fn advice_at_a_fractional_rate_names_the_rate() {
     let advice: Value = serde_json::from_str(&advice).unwrap();
     assert_eq!(advice["tick_hz"], 66.67);
     let words = stdout_of("advise --k 900 --c 4 --mass 12 --step 0.015");
-    assert!(words.contains("at 66.667 Hz: bounded: "), "{words}");
+    assert!(words.contains("at 66.667 Hz: looks-right: "), "{words}");
 }
 
 #[test]

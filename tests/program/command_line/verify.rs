@@ -5,6 +5,7 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 use regatta::commands::manifest::{Manifest, fingerprint};
+use serde_json::Value;
 use tempfile::TempDir;
 
 use super::capture::dimensions;
@@ -360,4 +361,97 @@ fn blessed_frames_verify_as_the_same() {
     assert!(stderr.starts_with("wrote 7 frames, 64x36"), "{stderr}");
     assert_eq!(verify(folder.path(), "").0, Some(0));
     assert!(fs::read(manifest_of(folder.path())).unwrap() == whole);
+}
+
+/// Edits each leaf of a value in turn, and calls `with` on the path of the leaf.
+fn edit_leaves(value: &mut Value, path: &str, with: &mut dyn FnMut(&str, &mut Value)) {
+    match value {
+        Value::Object(entries) => {
+            for (key, value) in entries.iter_mut() {
+                edit_leaves(value, &format!("{path}.{key}"), with);
+            }
+        }
+        Value::Array(entries) => {
+            for (n, value) in entries.iter_mut().enumerate() {
+                edit_leaves(value, &format!("{path}[{n}]"), with);
+            }
+        }
+        leaf => with(path, leaf),
+    }
+}
+
+/// Another value of the same kind.
+fn altered(leaf: &Value) -> Value {
+    match leaf {
+        Value::Null => 3.into(),
+        Value::Bool(flag) => (!flag).into(),
+        Value::String(text) => format!("{text}0").into(),
+        Value::Number(number) => match (number.as_u64(), number.as_f64()) {
+            (Some(whole), _) => (whole + 1).into(),
+            (None, Some(number)) => (number + number.abs().max(1e-9) / 1024.0).into(),
+            _ => unreachable!("{number}"),
+        },
+        _ => unreachable!("{leaf}"),
+    }
+}
+
+#[test]
+fn each_edited_leaf_of_a_manifest_is_found() {
+    let folder = tempfile::tempdir().unwrap();
+    let capture =
+        "capture --scene spring --method rk4 --frames 3 --size 64x36 --scale 0.5 --out clip";
+    assert_eq!(run_in(folder.path(), capture).status.code(), Some(0));
+    let text = fs::read_to_string(manifest_of(folder.path())).unwrap();
+    let whole: Value = serde_json::from_str(&text).unwrap();
+    let mut leaves = Vec::new();
+    edit_leaves(&mut whole.clone(), "", &mut |path, leaf| {
+        leaves.push((path.to_owned(), leaf.clone()))
+    });
+    assert!(leaves.len() > 60, "{leaves:?}");
+    for (wanted, was) in &leaves {
+        let mut edited = whole.clone();
+        edit_leaves(&mut edited, "", &mut |path, leaf| {
+            if path == wanted {
+                *leaf = altered(leaf);
+            }
+        });
+        fs::write(manifest_of(folder.path()), edited.to_string()).unwrap();
+        for arguments in ["", "--physics-only"] {
+            let (code, stdout, stderr) = verify(folder.path(), arguments);
+            let said = stdout + &stderr;
+            let is_exempt = wanted == ".regatta"
+                || wanted.starts_with(".adapter")
+                || arguments == "--physics-only" && wanted.ends_with(".pixels");
+            assert_eq!(code == Some(0), is_exempt, "{wanted} ({was}) {arguments}: {said}");
+            if wanted.starts_with(".lanes") || wanted.starts_with(".frames") && !is_exempt {
+                let leaf = wanted.rsplit(['.', '[']).find(|word| !word.ends_with(']')).unwrap();
+                let leaf = leaf
+                    .replace("halted", "halt")
+                    .replace("file", "frame-")
+                    .replace("pixels", "hash");
+                assert!(said.contains(&leaf), "{wanted} {arguments}: {said}");
+            }
+        }
+    }
+}
+
+#[test]
+fn frames_without_a_place_or_an_end_are_named() {
+    let folder = clip();
+    let frame = |n: u32| folder.path().join(format!("clip/frame-{n:06}.png"));
+    let whole = fs::read(frame(2)).unwrap();
+    for file in [&whole[..whole.len() - 1], &[&whole[..], b"more"].concat()] {
+        fs::write(frame(2), file).unwrap();
+        let (code, stdout, _) = verify(folder.path(), "");
+        assert_eq!(code, Some(1));
+        assert!(stdout.contains("frame-000002.png: ") && !stdout.contains("same: 7"), "{stdout}");
+    }
+    fs::write(frame(2), &whole).unwrap();
+    fs::write(frame(12), &whole).unwrap();
+    let (code, stdout, _) = verify(folder.path(), "");
+    assert_eq!(code, Some(1));
+    assert!(
+        stdout.contains("frame-000012.png: no frame of the manifest has this name"),
+        "{stdout}"
+    );
 }

@@ -2,36 +2,72 @@
 
 use std::ops::Range;
 
-use super::{Node, Parser};
+use super::{Node, Parser, Scope, parse};
 use crate::sim::curve::Curve;
 use crate::sim::law::fault::{Parsed, fault};
 use crate::sim::law::function::{Function, Meaning};
 use crate::sim::law::op::Op;
-use crate::sim::law::switch::{ModeRule, Switch, SwitchValue};
+use crate::sim::law::switch::Switch;
 use crate::sim::law::token::Token;
 use crate::sim::parameter::MAX_POINTS;
 
+/// The names of a written function, which are its arguments and the length of the step.
+struct Arguments(&'static [&'static str]);
+
+impl Scope for Arguments {
+    fn input(&self, name: &str) -> Option<usize> {
+        let mut names = self.0.iter().chain(&["dt"]);
+        names.position(|known| *known == name)
+    }
+
+    fn names(&self) -> Vec<String> {
+        Vec::new()
+    }
+
+    fn why_not(&self, _: &str) -> Option<String> {
+        None
+    }
+
+    fn function(&self, name: &str) -> Option<&'static Function> {
+        Function::named_in_steps(name)
+    }
+
+    fn overload(&self, name: &str, count: usize) -> Option<&'static Function> {
+        Function::with_arguments(name, count)
+    }
+}
+
 impl Parser<'_> {
-    /// Reads the call of a function after its name.
+    /// Reads the call of a function after its name. A method has its first argument before its name.
     pub(super) fn call(
         &mut self,
-        function: &'static Function,
+        mut function: &'static Function,
         name: Range<usize>,
+        receiver: Option<usize>,
     ) -> Parsed<usize> {
         self.next += 1;
-        let mut arguments = Vec::new();
+        let mut arguments: Vec<usize> = receiver.into_iter().collect();
         let mut table = None;
         let wanted = function.arguments.len();
-        loop {
+        let overload =
+            |parser: &Self, count: usize| parser.scope.overload(&parser.text[name.clone()], count);
+        while receiver.is_none() || self.peek() != Token::Symbol(")") {
             if matches!(function.meaning, Meaning::Table) && arguments.len() == 1 {
                 table = Some(self.table()?);
                 break;
             }
             arguments.push(self.nested(Self::any)?);
-            if arguments.len() > wanted || !self.consume_if(",") {
+            let is_full = arguments.len() > wanted && overload(self, arguments.len()).is_none();
+            if is_full || !self.consume_if(",") {
                 break;
             }
         }
+        if arguments.len() != wanted
+            && let Some(other) = overload(self, arguments.len())
+        {
+            function = other;
+        }
+        let wanted = function.arguments.len();
         if arguments.len() + usize::from(table.is_some()) != wanted {
             let end = self.here().end.max(name.end);
             let what = format!("`{}` does not take these arguments", function.name);
@@ -52,18 +88,7 @@ impl Parser<'_> {
             Meaning::Smooth(smooth) => self.push(Op::Smooth(smooth), &arguments, span),
             Meaning::Switch(switch) => self.push(Op::Switch(*switch), &arguments, span),
             Meaning::If => self.push(Op::If, &arguments, span),
-            Meaning::Clamp => {
-                let [max, min] = [ModeRule::Greater, ModeRule::Less]
-                    .map(|pieces| Op::Switch(Switch { pieces, value: SwitchValue::Choice }));
-                let raised = self.push(max, &arguments[..2], span.clone());
-                self.push(min, &[raised, arguments[2]], span)
-            }
-            Meaning::Between => {
-                let [a, b, part] = arguments[..] else { unreachable!("their number is checked") };
-                let way = self.push(Op::Subtract, &[b, a], span.clone());
-                let gone = self.push(Op::Multiply, &[way, part], span.clone());
-                self.push(Op::Add, &[a, gone], span)
-            }
+            Meaning::Written(_) => self.written(function, &arguments, &span),
             Meaning::Power => self.push(Op::Power, &arguments, span),
             Meaning::Table => {
                 let node = self.push(Op::Switch(Switch::TABLE), &arguments, span);
@@ -72,6 +97,30 @@ impl Parser<'_> {
                 node
             }
         })
+    }
+
+    /// Adds the operations of a function that is written as an expression.
+    pub(super) fn written(
+        &mut self,
+        function: &'static Function,
+        arguments: &[usize],
+        span: &Range<usize>,
+    ) -> usize {
+        let Meaning::Written(text) = function.meaning else { unreachable!("a written function") };
+        let inner = parse(text, &Arguments(function.arguments)).expect("a row of the table");
+        let mut nodes: Vec<usize> = Vec::new();
+        for node in &inner.nodes {
+            let new = match node.op {
+                Op::Input if node.index < arguments.len() => arguments[node.index],
+                Op::Input => {
+                    let step = self.scope.input("dt").unwrap_or_default();
+                    self.node(Node::input(step), span.clone())
+                }
+                _ => self.node(node.reading(|operand| nodes[operand]), span.clone()),
+            };
+            nodes.push(new);
+        }
+        nodes[nodes.len() - 1]
     }
 
     /// Reads a call of the acceleration after its name. Its arguments are a position, a velocity and a time.

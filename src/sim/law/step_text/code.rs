@@ -3,7 +3,7 @@
 use super::reader::FIELD;
 use super::{BUILT_IN, Carried, H, Line, StepText, V};
 use crate::sim::law::expression::Expression;
-use crate::sim::law::function::{FUNCTIONS, Meaning};
+use crate::sim::law::function::{FUNCTIONS, Meaning, STEP_FUNCTIONS};
 use crate::sim::law::op::{INFIXES, Level, Op};
 
 /// The lines of a step, as code.
@@ -40,12 +40,16 @@ impl StepCode {
 const MAX_CODE_BYTES: usize = 4096;
 
 /// Functions that some languages lack, written out.
-const WRITTEN_OUT: [(&str, &str); 3] = [
+const WRITTEN_OUT: [(&str, &str); 4] = [
     (
         "sign",
         "fn sign(x) {\n    if 0.0 < x {\n        return 1.0\n    }\n    if x < 0.0 {\n        return -1.0\n    }\n    return 0.0\n}\n",
     ),
     ("step", "fn step(x) {\n    if x < 0.0 {\n        return 0.0\n    }\n    return 1.0\n}\n"),
+    (
+        "round",
+        "fn round(x) {\n    var whole = floor(abs(x))\n    if not (abs(x) - whole < 0.5) {\n        whole += 1.0\n    }\n    if x < 0.0 {\n        return -whole\n    }\n    return whole\n}\n",
+    ),
     ("hypot", "fn hypot(x, y) {\n    return sqrt(x * x + y * y)\n}\n"),
 ];
 
@@ -219,7 +223,8 @@ fn name_of(op: Op) -> Option<&'static str> {
         (Op::Switch(called), Meaning::Switch(switch)) => called == *switch,
         _ => false,
     };
-    FUNCTIONS.iter().find(|function| is_it(&function.meaning)).map(|function| function.name)
+    let mut functions = FUNCTIONS.iter().chain(&STEP_FUNCTIONS);
+    functions.find(|function| is_it(&function.meaning)).map(|function| function.name)
 }
 
 /// Returns a name of the text. The name is changed if it is a word there.

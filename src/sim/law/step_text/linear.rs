@@ -59,11 +59,16 @@ impl StepText {
     /// Returns a frame of `h` seconds as a map of up to two carried numbers, linearised about 0. Returns `None` if
     /// there are more numbers, or if a coefficient is not finite.
     pub(crate) fn frame(&self, state: &[usize], h: f64) -> Option<Frame> {
+        self.frame_on(&[], state, h)
+    }
+
+    /// Returns the frame on the piece with these modes of the switches.
+    pub(crate) fn frame_on(&self, modes: &[i64], state: &[usize], h: f64) -> Option<Frame> {
         if state.len() > 2 {
             return None;
         }
         let rest = vec![0.0; self.carried().len()];
-        let found = self.map(h, &rest, 0.0);
+        let found = self.map_on(modes, h, &rest, 0.0);
         let of = |numbers: &[f64]| {
             let mut both = state.iter().map(|index| numbers[*index]);
             Vector2::new(both.next().unwrap_or(0.0), both.next().unwrap_or(0.0))

@@ -1,9 +1,7 @@
 //! Blanks the parts of a text that only its own language needs, such as comments, the `f` of `0.2f`, or the `Mathf.` of
 //! `Mathf.Exp`.
 
-/// Prefixes of names in other languages, which have no meaning here.
-const PREFIXES: [&str; 10] =
-    ["Mathf.", "MathF.", "Math.", "math.", "Time.", "std::", "f32::", "f64::", "self.", "this."];
+use super::paths::{Component, reduce};
 
 /// Beginnings of lines of `assets/methods` that describe a method for people.
 const HEADINGS: [&str; 6] =
@@ -21,8 +19,8 @@ pub(super) fn is_name_part(byte: u8) -> bool {
 }
 
 /// Returns the text with blanks in place of the parts that have no meaning here, so that all other bytes keep their
-/// positions.
-pub(super) fn plain(text: &str) -> String {
+/// positions. Also returns the components of vectors.
+pub(super) fn plain(text: &str) -> (String, Vec<Component>) {
     let mut plain = text.as_bytes().to_vec();
     if text.starts_with('\u{feff}') {
         plain[..'\u{feff}'.len_utf8()].fill(b' ');
@@ -52,29 +50,21 @@ pub(super) fn plain(text: &str) -> String {
                 number + suffix
             }
             byte if is_name_part(byte) => {
-                match PREFIXES.iter().find(|prefix| rest.starts_with(prefix.as_bytes())) {
-                    Some(prefix) => {
-                        let length = blank(&mut plain, prefix.len());
-                        lower_name(&mut plain[at + length..]);
-                        length
-                    }
-                    None => {
-                        let length = rest.iter().take_while(|byte| is_name_part(**byte)).count();
-                        if &rest[..length] == MEMORY.as_bytes() && rest.get(length) == Some(&b'.') {
-                            // Joins `memory` and the name after it into one name of the same length.
-                            plain[at + length] = b'_';
-                            length + 1
-                        } else {
-                            length
-                        }
-                    }
+                let length = rest.iter().take_while(|byte| is_name_part(**byte)).count();
+                let is_memory =
+                    &rest[..length] == MEMORY.as_bytes() && rest.get(length) == Some(&b'.');
+                if is_memory {
+                    // Joins `memory` and the name after it into one name of the same length.
+                    plain[at + length] = b'_';
                 }
+                length + usize::from(is_memory)
             }
             _ => 1,
         };
     }
+    let components = reduce(&mut plain);
     // Only whole characters were blanked, so that the text is still valid UTF-8.
-    String::from_utf8(plain).unwrap_or_default()
+    (String::from_utf8(plain).unwrap_or_default(), components)
 }
 
 fn line_length(rest: &[u8]) -> usize {
@@ -102,7 +92,7 @@ fn number_length(rest: &[u8]) -> (usize, usize) {
 }
 
 /// Lower-cases the name at the start to the spelling of names here, for example `Lerp` to `lerp`, and `PI` to `pi`.
-fn lower_name(plain: &mut [u8]) {
+pub(super) fn lower_name(plain: &mut [u8]) {
     let length = plain.iter().take_while(|byte| is_name_part(**byte)).count();
     let name = &mut plain[..length];
     let is_shouted = name.iter().all(|byte| !byte.is_ascii_lowercase());
@@ -129,8 +119,8 @@ mod tests {
             ("1e", "1e"),
             ("/*", "  "),
         ] {
-            assert_eq!(plain(written), read, "{written}");
-            assert_eq!(plain(written).len(), written.len());
+            assert_eq!(plain(written).0, read, "{written}");
+            assert_eq!(plain(written).0.len(), written.len());
         }
     }
 }

@@ -2,8 +2,9 @@
 
 use std::ops::Range;
 
+use super::paths::{SMOOTH_DAMP, damped_velocity};
 use super::plain::is_name_part;
-use super::statements::{Statement, statements};
+use super::statements::Statement;
 use super::{BUILT_IN, Carried, H, Line, StepCall, StepText, TARGET, V, X};
 use crate::sim::law::expression::{Expression, Node, Scope, parse, parse_condition};
 use crate::sim::law::fault::{ExpressionFault, Parsed, Part, Remedy, fault, quoted};
@@ -21,13 +22,39 @@ const MAX_BLOCKS: usize = 32;
 const MAX_CALLS: usize = 64;
 
 /// Other names of the length of a step.
-const STEP_NAMES: [&str; 5] = ["dt", "delta", "deltaTime", "delta_time", "delta_seconds"];
+pub(super) const STEP_NAMES: [&str; 13] = [
+    "dt",
+    "delta",
+    "deltaTime",
+    "delta_time",
+    "delta_seconds",
+    "DeltaTime",
+    "fixedDeltaTime",
+    "deltaSeconds",
+    "DeltaSeconds",
+    "delta_secs",
+    "delta_secs_f64",
+    "getDelta",
+    "elapsed",
+];
 
 /// Names that games use for `x`, `v` and `target`, valid unless the text uses the original name.
-const OTHER_NAMES: [(usize, &[&str]); 3] = [
+pub(super) const OTHER_NAMES: [(usize, &[&str]); 3] = [
     (X, &["pos", "position", "value", "current"]),
     (V, &["vel", "velocity", "speed"]),
-    (TARGET, &["goal", "desired", "targetPos", "target_pos", "targetPosition", "target_position"]),
+    (
+        TARGET,
+        &[
+            "goal",
+            "desired",
+            "targetPos",
+            "target_pos",
+            "targetPosition",
+            "target_position",
+            "targetX",
+            "target_x",
+        ],
+    ),
 ];
 
 /// Names for the call of the acceleration.
@@ -70,7 +97,12 @@ pub(super) struct Reader<'t> {
     calls: Vec<[usize; 2]>,
     /// In a method, the node that tells whether the current lines run.
     guard: Option<usize>,
+    /// Whether the value of `SmoothDamp` is the velocity that it leaves.
+    damps_velocity: bool,
 }
+
+/// The place that `SmoothDamp` leaves, until the velocity is assigned.
+const DAMPED_PLACE: &str = "damped_place";
 
 /// Whether a text has this word.
 fn has_word(text: &str, word: &str) -> bool {
@@ -113,13 +145,23 @@ impl Scope for Reader<'_> {
     }
 
     fn function(&self, name: &str) -> Option<&'static Function> {
-        Function::named_in_steps(name)
+        let found = Function::named_in_steps(name)?;
+        let velocity = self.damps_velocity && found.name == SMOOTH_DAMP;
+        if velocity { Function::named_in_steps("smoothDampVelocity") } else { Some(found) }
+    }
+
+    fn overload(&self, name: &str, count: usize) -> Option<&'static Function> {
+        Function::with_arguments(self.function(name)?.name, count)
+    }
+
+    fn is_step(&self) -> bool {
+        true
     }
 }
 
 impl<'t> Reader<'t> {
     /// Returns a reader that already knows the names that the text assigns.
-    pub(super) fn new(text: &'t str) -> Parsed<Self> {
+    pub(super) fn new(text: &'t str, statements: &[Statement]) -> Parsed<Self> {
         let mut reader = Reader {
             text,
             names: BUILT_IN.map(String::from).to_vec(),
@@ -133,11 +175,18 @@ impl<'t> Reader<'t> {
             call: first_call(text),
             calls: Vec::new(),
             guard: None,
+            damps_velocity: false,
         };
-        for statement in statements(text)? {
+        for statement in statements.iter().cloned() {
             match statement {
-                Statement::Assign { name, is_declared, .. } => {
+                Statement::Assign { name, is_declared, value, .. } => {
                     reader.declare(name, !is_declared, false)?;
+                    if let Some(velocity) = damped_velocity(text, &value) {
+                        reader.declare(velocity, true, false)?;
+                        if reader.index(DAMPED_PLACE).is_none() {
+                            reader.add_name(DAMPED_PLACE, false);
+                        }
+                    }
                 }
                 Statement::Memory { name, .. } => reader.declare(name, true, true)?,
                 _ => {}
@@ -168,7 +217,7 @@ impl<'t> Reader<'t> {
     fn declare(&mut self, span: Range<usize>, is_carried: bool, is_memory: bool) -> Parsed<()> {
         let name = &*self.declared(span.clone(), is_memory);
         let is_word = OPERATOR_WORDS.contains(&name) || name == "pi";
-        if is_word || Function::named_in_steps(name).is_some() {
+        if is_word || Function::is_reserved(name) {
             let what = format!("`{}` has a meaning of its own in expressions", quoted(name));
             return fault(span, what, "give it another name");
         }
@@ -186,14 +235,16 @@ impl<'t> Reader<'t> {
                 let what = format!("the lines have more than {} names", MAX_STEP_NAMES - 4);
                 return fault(span, what, "use fewer");
             }
-            None => {
-                self.names.push(name.to_owned());
-                self.is_carried.push(is_carried);
-                self.starts.push(0.0);
-                self.values.push(None);
-            }
+            None => self.add_name(name, is_carried),
         }
         Ok(())
+    }
+
+    fn add_name(&mut self, name: &str, is_carried: bool) {
+        self.names.push(name.to_owned());
+        self.is_carried.push(is_carried);
+        self.starts.push(0.0);
+        self.values.push(None);
     }
 
     /// Consumes the next statement.
@@ -209,9 +260,14 @@ impl<'t> Reader<'t> {
                         .ok(),
                     false => None,
                 };
-                match index.zip(start) {
-                    Some((index, start)) => self.starts[index] = start,
-                    None => self.assign(name, joins, value)?,
+                match (index.zip(start), damped_velocity(self.text, &value)) {
+                    (Some((index, start)), _) => self.starts[index] = start,
+                    (None, Some(velocity)) => self.assign_damped(name, joins, value, velocity)?,
+                    (None, None) => {
+                        let expression = self.expression(value.clone(), false)?;
+                        let index = self.index(&self.text[name.clone()]).unwrap_or(X);
+                        self.assign(index, name, joins, expression, value)?;
+                    }
                 }
                 Ok(())
             }
@@ -292,13 +348,37 @@ impl<'t> Reader<'t> {
         )
     }
 
-    fn assign(
+    /// Assigns the place that `SmoothDamp` leaves, and its velocity.
+    fn assign_damped(
         &mut self,
         name: Range<usize>,
         joins: &'static str,
         value: Range<usize>,
+        velocity: Range<usize>,
     ) -> Parsed<()> {
-        let expression = self.expression(value.clone(), false)?;
+        let index = |text: &str| self.index(text).unwrap_or(X);
+        let [x, v] = [&name, &velocity].map(|span| index(&self.text[span.clone()]));
+        let damped = index(DAMPED_PLACE);
+        let place = self.expression(value.clone(), false)?;
+        self.damps_velocity = true;
+        let speed = self.expression(value.clone(), false);
+        self.damps_velocity = false;
+        self.assign(damped, name.clone(), "", place, value.clone())?;
+        self.assign(v, velocity, "", speed?, value.clone())?;
+        let mut read = Expression::default();
+        read.nodes.push(Node::input(damped));
+        read.spans.push(0..0);
+        self.assign(x, name, joins, read, value)
+    }
+
+    fn assign(
+        &mut self,
+        index: usize,
+        name: Range<usize>,
+        joins: &'static str,
+        expression: Expression,
+        value: Range<usize>,
+    ) -> Parsed<()> {
         let is_0 = |node: usize| {
             let node = expression.nodes[node];
             matches!(node.op, Op::Number) && node.number == 0.0
@@ -307,8 +387,7 @@ impl<'t> Reader<'t> {
         if nodes.any(|node| matches!(node.op, Op::Divide) && is_0(node.arguments()[1])) {
             return fault(value, "it divides by 0", "divide by another number");
         }
-        let index = self.index(&self.text[name.clone()]).unwrap_or(X);
-        let found = self.splice(&expression, name.start);
+        let found = self.splice(&expression, value.start);
         let found = match joins {
             "" => found,
             joins => {
@@ -416,13 +495,14 @@ impl<'t> Reader<'t> {
         }
         let (before, tables) = (self.nodes.nodes.len(), self.nodes.tables.len());
         let zero = Node::new(Op::Number, &[]);
-        for node in &expression.nodes {
+        for (node, span) in expression.nodes.iter().zip(&expression.spans) {
+            let span = at.start + span.start..at.start + span.end;
             let mut node = node.after(before);
             if node.op.is_table() {
                 node.index += tables;
             }
             // A zero is a placeholder for an input, because operations read the name's current number instead.
-            self.push(if node.op == Op::Input { zero } else { node }, &at);
+            self.push(if node.op == Op::Input { zero } else { node }, &span);
         }
         self.nodes.tables.extend(expression.tables.iter().cloned());
         let number_of = |node: usize| {
@@ -503,7 +583,8 @@ impl<'t> Reader<'t> {
         let times = tape.outputs.drain(..2 * self.calls.len()).skip(self.calls.len()).collect();
         let Reader { names, lines, call, .. } = self;
         let (source, calls) = (String::new(), Vec::new());
-        let mut text = StepText { source, names, lines, carried, tape, call, calls };
+        let left_out = None;
+        let mut text = StepText { source, names, lines, carried, tape, call, calls, left_out };
         text.calls = StepCall::all(&text, times);
         Ok(text)
     }

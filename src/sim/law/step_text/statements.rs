@@ -50,9 +50,23 @@ const REFUSED_ALONE: [(&str, &str); 5] = [
 const ASSIGNMENTS: [(&str, &str); 6] =
     [("+=", "+"), ("-=", "-"), ("*=", "*"), ("/=", "/"), (":=", ""), ("=", "")];
 
+/// Words that end a block after `then`.
+const WORDS: [&str; 4] = ["end", "else", "elseif", "elif"];
+
+/// Whether one of these words is at a byte.
+fn begins_word(text: &str, at: usize, words: &[&str]) -> bool {
+    let bytes = text.as_bytes();
+    let is_part =
+        |at: Option<usize>| at.and_then(|at| bytes.get(at)).is_some_and(|it| is_name_part(*it));
+    !is_part(at.checked_sub(1))
+        && words
+            .iter()
+            .any(|word| bytes[at..].starts_with(word.as_bytes()) && !is_part(Some(at + word.len())))
+}
+
 /// Returns the statements of a text without comments.
 pub(super) fn statements(text: &str) -> Parsed<Vec<Statement>> {
-    let mut reader = Reader { text, at: 0 };
+    let mut reader = Reader { text, at: 0, worded: Vec::new() };
     let mut statements = Vec::new();
     while let Some(statement) = reader.next()? {
         statements.push(statement);
@@ -63,6 +77,8 @@ pub(super) fn statements(text: &str) -> Parsed<Vec<Statement>> {
 struct Reader<'t> {
     text: &'t str,
     at: usize,
+    /// For each open block, whether it begins with `then` and ends with `end`.
+    worded: Vec<bool>,
 }
 
 impl Reader<'_> {
@@ -88,6 +104,7 @@ impl Reader<'_> {
             (None, _) => Ok(None),
             (Some('}'), _) => {
                 self.at += 1;
+                self.worded.pop();
                 let brace = start..self.at;
                 self.skip(|c| c.is_ascii_whitespace());
                 if &self.text[self.name()] != "else" {
@@ -96,7 +113,7 @@ impl Reader<'_> {
                 self.at = self.name().end;
                 self.skip(|c| c.is_ascii_whitespace());
                 let condition = match &self.text[self.name()] {
-                    "if" => Some(self.condition()?),
+                    "if" => Some(self.condition(self.name())?),
                     _ => {
                         let between = self.at..self.at;
                         self.expect_open_brace(between)?;
@@ -105,7 +122,20 @@ impl Reader<'_> {
                 };
                 Ok(Some(Statement::Else(condition, brace)))
             }
-            (_, "if") => Ok(Some(Statement::If(self.condition()?))),
+            (_, "if") => Ok(Some(Statement::If(self.condition(self.name())?))),
+            (_, word) if self.is_worded() && WORDS.contains(&word) => {
+                let word = self.name();
+                self.at = word.end;
+                self.worded.pop();
+                Ok(Some(match &self.text[word.clone()] {
+                    "end" => Statement::End(word),
+                    "else" => {
+                        self.worded.push(true);
+                        Statement::Else(None, word)
+                    }
+                    _ => Statement::Else(Some(self.condition(word.clone())?), word),
+                }))
+            }
             (_, "else") => fault(
                 self.name(),
                 "`else` follows no block",
@@ -115,10 +145,20 @@ impl Reader<'_> {
         }
     }
 
-    /// Returns the condition of the next `if`, up to the brace that opens its block.
-    fn condition(&mut self) -> Parsed<Range<usize>> {
-        let word = self.name();
+    fn is_worded(&self) -> bool {
+        self.worded.last() == Some(&true)
+    }
+
+    /// Returns the condition after this `if`, up to the brace or the `then` that opens its block.
+    fn condition(&mut self, word: Range<usize>) -> Parsed<Range<usize>> {
         self.at = word.end;
+        let line = self.rest().find(['{', ';', '}']).unwrap_or(self.rest().len());
+        if let Some(then) = (0..line).find(|at| begins_word(self.rest(), *at, &["then"])) {
+            let condition = self.at..self.at + then;
+            self.at = condition.end + "then".len();
+            self.worded.push(true);
+            return Ok(condition);
+        }
         let length = self.rest().find(['{', ';', '}']).unwrap_or(self.rest().len());
         let condition = self.at..self.at + length;
         self.at = condition.end;
@@ -132,6 +172,7 @@ impl Reader<'_> {
             return fault(word, "no `{` opens the block", "write `if condition { … }`");
         }
         self.at += 1;
+        self.worded.push(false);
         Ok(())
     }
 
@@ -143,6 +184,9 @@ impl Reader<'_> {
                 '(' | '[' => depth += 1,
                 ')' | ']' => depth -= 1,
                 ';' | '{' | '}' => return self.at + at,
+                _ if self.is_worded() && begins_word(self.rest(), at, &WORDS) => {
+                    return self.at + at;
+                }
                 '\n' if depth <= 0
                     && !continues_on_next_line(&self.rest()[..at], &self.rest()[at..]) =>
                 {

@@ -3,7 +3,7 @@
 
 use egui::{ComboBox, RichText, Ui, vec2};
 
-use super::{LINE, RESTORE, line, restore_button};
+use super::{LINE, RESTORE, hold_during_drag, line, restore_button};
 use crate::run::race::{Entrant, Mode};
 use crate::scene::{
     Action, LaneSpec, MAX_SECONDS, MAX_SUBSTEPS, MIN_SECONDS, TOLERANCES, check_entered,
@@ -46,6 +46,7 @@ fn show_lane(ui: &mut Ui, studio: &Studio, entrant: &Entrant, commands: &mut Vec
     let (response, entered) = substeps.show(ui, vec2(SUBSTEPS, LINE), |it| {
         check_entered("substeps", it, Range::Count(MAX_SUBSTEPS))
     });
+    hold_during_drag(&response, studio, commands);
     response.on_hover_text("equal steps in a tick");
     let act = |action| Command::Run(RunCommand::Act(action));
     commands.extend(entered.map(|value| act(Action::Substeps { lane, substeps: value as u32 })));
@@ -61,6 +62,7 @@ fn show_lane(ui: &mut Ui, studio: &Studio, entrant: &Entrant, commands: &mut Vec
             let (response, entered) = tolerance.show(ui, vec2(TOLERANCE, LINE), |value| {
                 check_entered("tolerance", value, Range::Between(TOLERANCES.0, TOLERANCES.1))
             });
+            hold_during_drag(&response, studio, commands);
             response.on_hover_text("tolerance: the largest error of a substep");
             commands.extend(entered.map(|tolerance| act(Action::Tolerance { lane, tolerance })));
         }
@@ -129,7 +131,7 @@ pub(super) fn show_time(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command
     line(ui, "tick rate", about, |ui, [room, number]| {
         ui.add_space(room - number - RESTORE - ui.spacing().item_spacing.x);
         let size = vec2(number, LINE);
-        rate_scale::number(ui, tick_hz, size, commands);
+        rate_scale::number(ui, studio, size, commands);
         let about = format!("back to {:.3} Hz", opened.tick_hz);
         restore_button(ui, tick_hz != opened.tick_hz, &about, "tick rate", || {
             commands.push(Command::Stage(StageCommand::TickHz(opened.tick_hz)));

@@ -54,5 +54,5 @@ fn energies(studio: &Studio, body: usize) -> PlotModel {
     let (id, title) = (format!("energies of {body}"), "kinetic dashed, potential dotted".into());
     let axes = [PlotAxis::time("time t"), PlotAxis::new("energy", "J", AxisScale::Linear)];
     let plot = PlotModel::new(body, id, title, axes, over_time(studio, y));
-    PlotModel { tracks, exact: exact.into(), ..plot }
+    PlotModel { tracks, exact: exact.into(), is_of_ticks: true, ..plot }
 }

@@ -3,7 +3,7 @@
 use super::super::ranges;
 use super::super::series_styles::SeriesStyles;
 use super::super::tracks::Track;
-use super::plot_set::{PlotAxis, PlotModel, PlotSet, over_time};
+use super::plot_set::{BeforeLine, PlotAxis, PlotModel, PlotSet, over_time};
 use crate::run::{METRICS, Metric, Scale, Unit};
 use crate::studio::Studio;
 use crate::view::chart::{AxisScale, Dots};
@@ -11,6 +11,9 @@ use crate::view::chart::{AxisScale, Dots};
 /// Message if every error is zero, because zero has no logarithm.
 pub(super) const NO_ERROR: &str =
     "No error: every method shown is on the exact curve to the last bit.";
+
+/// Message at the start of a run.
+pub(super) const NOTHING_YET: &str = "Nothing has run yet.";
 
 /// Returns the indices in [`METRICS`] of the metrics to choose from. They are all those that the energy instrument does
 /// not show.
@@ -37,7 +40,9 @@ pub(super) fn plot(studio: &Studio, body: usize, place: usize, title: String) ->
     let values = Track::of(studio, body, |s| [s.t, s.metrics[place]]);
     let scale = scale(metric, &values);
     let tracks = Track::of(studio, body, |s| [s.t, scale.place(s.metrics[place])]);
-    let fitted = Track::fitted(studio, &tracks);
+    let before = BeforeLine::of(studio, body, |s| [s.t, scale.place(s.metrics[place])]);
+    let mut fitted = Track::fitted(studio, &tracks).into_owned();
+    fitted.extend(before.iter().map(|before| before.track.clone()));
     let y = match (metric.scale, metric.unit) {
         (Scale::Log, _) => {
             let truth = studio.past().truth_curves()[body].samples();
@@ -52,12 +57,16 @@ pub(super) fn plot(studio: &Studio, body: usize, place: usize, title: String) ->
     };
     let is_empty = tracks.iter().all(Track::is_empty);
     let has_values = values.iter().any(|track| !track.is_empty());
-    let nothing = if has_values { NO_ERROR } else { metric.absent_on(truth) };
-    let nothing = is_empty.then(|| nothing.to_owned());
+    let nothing = match has_values {
+        true if studio.race().tick() == 0 => NOTHING_YET,
+        true => NO_ERROR,
+        false => metric.absent_on(truth),
+    };
+    let nothing = (is_empty && before.is_none()).then(|| nothing.to_owned());
     let axes = [PlotAxis::time("time t"), PlotAxis::new(metric.name, &unit, scale)];
     let id = format!("{} of {body}", metric.id);
     let plot = PlotModel::new(body, id, title, axes, over_time(studio, y));
-    PlotModel { tracks, dots: Dots::SparseAlongX, nothing, ..plot }
+    PlotModel { tracks, dots: Dots::SparseAlongX, nothing, before, is_of_ticks: true, ..plot }
 }
 
 fn scale(metric: &Metric, values: &[Track]) -> AxisScale {

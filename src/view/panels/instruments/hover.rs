@@ -46,7 +46,8 @@ pub(super) fn show(
     let (frame, now) = (area.rect, styles.now_s);
     let [from, to] = area.bounds[0];
     let is_over_time = cell.plot.is_over_time();
-    let readouts = cell.plot.readouts(studio, styles, t.unwrap_or(now));
+    let present = if cell.plot.is_of_ticks { studio.race().t() } else { now };
+    let readouts = cell.plot.readouts(studio, styles, t.unwrap_or(present));
     let painter = ui.painter();
     if is_over_time && (from..to).contains(&now) {
         let x = area.at([now, 0.0]).x;

@@ -5,7 +5,7 @@ use super::super::series_styles::SeriesStyles;
 use super::super::tracks::{Detail, Track};
 use super::error::capitalised;
 use super::plot_set::{
-    EXACT, ExactLine, PlotAxis, PlotModel, PlotSet, origin, over_time, time_in_view,
+    BeforeLine, EXACT, ExactLine, PlotAxis, PlotModel, PlotSet, origin, over_time, time_in_view,
 };
 use crate::look::{Framing, Look};
 use crate::measure::FutureCurve;
@@ -72,6 +72,8 @@ fn plot(studio: &Studio, body: usize, detail: Detail) -> PlotModel {
     let seen = Track::front_since(&lanes, 1, from_s).chain(exact.fitted(studio, 1));
     let futures = future_curves(studio, body, quantity);
     let exact_future = futures.last().into_iter().flat_map(|curve| &curve.points);
+    let before = BeforeLine::of(studio, body, |s| [s.t, quantity.value([s.q, s.v])]);
+    let seen = seen.chain(before.iter().flat_map(|before| before.track.along(1)));
     let seen = seen.chain(origin(studio)).chain(exact_future.map(|at| at[1]));
     let y = ranges::around_truth(seen, &lanes, 1, HEALTHY);
     let y = ranges::with_room(y, futures.iter().flat_map(|curve| &curve.points), ROOM_FOR_FUTURES);
@@ -83,7 +85,7 @@ fn plot(studio: &Studio, body: usize, detail: Detail) -> PlotModel {
     let id = format!("{} of {body}", quantity.symbol(&coordinate));
     let axes = [PlotAxis::time("time t"), PlotAxis::of_quantity(quantity, &coordinate)];
     let plot = PlotModel::new(body, id, title, axes, over_time(studio, y));
-    PlotModel { tracks, dots: Dots::SparseAlongX, exact: vec![exact], futures, ..plot }
+    PlotModel { tracks, dots: Dots::SparseAlongX, exact: vec![exact], futures, before, ..plot }
 }
 
 /// Maximum enlargement of a plot to show futures.

@@ -9,7 +9,7 @@ use egui::Color32;
 use super::super::series_styles::{SeriesStyle, SeriesStyles};
 use super::super::tracks::{self, Track, TrackStyle};
 use crate::run::Unit;
-use crate::run::past::{Quantity, TruthCurve, TruthSample};
+use crate::run::past::{Quantity, Sample, TruthCurve, TruthSample};
 use crate::stage::Coordinate;
 use crate::stage::number::significant;
 use crate::studio::{Studio, shows_futures};
@@ -18,6 +18,9 @@ use crate::view::theme::palette_of;
 
 /// Width of the exact curve, in points. A lane that follows the truth is visible on both sides of this curve.
 pub(super) const EXACT: f32 = 1.3;
+
+/// Width of the curve of the run before, in points.
+const BEFORE: f32 = 1.8;
 
 /// The plots of an instrument.
 pub(super) struct PlotSet {
@@ -43,8 +46,20 @@ pub(super) struct PlotModel {
     pub(super) exact: Vec<ExactLine>,
     /// The next second under each method, with a dot for each tick, and in truth.
     pub(super) futures: Vec<Curve>,
+    /// The run before the last restart, beside the lanes.
+    pub(super) before: Option<BeforeLine>,
+    /// Whether the quantity is known at ticks only. Its present value is that of the last tick, as in the table.
+    pub(super) is_of_ticks: bool,
     /// Message in place of the plot, which is the reason why there is nothing to show.
     pub(super) nothing: Option<String>,
+}
+
+/// The curve of the run before the last restart.
+pub(super) struct BeforeLine {
+    pub(super) track: Track,
+    /// What that run had instead, such as `2 Hz`.
+    pub(super) name: String,
+    pub(super) colour: Color32,
 }
 
 /// An axis of a plot.
@@ -128,12 +143,24 @@ impl PlotAxis {
 
     /// Formats the value at a place, without its unit.
     pub(super) fn number(&self, place: f64) -> String {
-        /// A number with more characters is rounded to one digit.
-        const MAX_CHARS: usize = 7;
-        let value = self.scale.value(place);
-        let number = significant(value, 3);
-        let is_long = number.chars().count() > MAX_CHARS;
-        if is_long { significant(value, 1) } else { number }
+        significant(self.scale.value(place), 3)
+    }
+}
+
+impl BeforeLine {
+    /// Creates the curve of a body in the run before, if there is one.
+    pub(super) fn of(
+        studio: &Studio,
+        body: usize,
+        place: impl Fn(&Sample) -> [f64; 2],
+    ) -> Option<Self> {
+        let before = studio.deck.run_before()?;
+        let samples = before.histories.get(body)?.samples();
+        let places = samples.take_while(|sample| sample.t <= before.until_s);
+        let places = places.map(|sample| (sample.t, place(sample)));
+        let track = Track::of_places(studio.active(), false, places);
+        let colour = palette_of(studio.display().theme).dim;
+        (!track.is_empty()).then(|| Self { track, name: before.name.clone(), colour })
     }
 }
 
@@ -304,7 +331,21 @@ impl PlotModel {
         fit: Bounds,
     ) -> Self {
         let (tracks, exact, futures) = (Vec::new(), Vec::new(), Vec::new());
-        Self { id, title, body, axes, fit, tracks, dots: Dots::None, exact, futures, nothing: None }
+        let (dots, before, nothing, is_of_ticks) = (Dots::None, None, None, false);
+        Self {
+            id,
+            title,
+            body,
+            axes,
+            fit,
+            tracks,
+            dots,
+            exact,
+            futures,
+            before,
+            is_of_ticks,
+            nothing,
+        }
     }
 
     /// Whether the horizontal axis is time.
@@ -339,6 +380,10 @@ impl PlotModel {
         });
         let style = TrackStyle { dots: self.dots, is_over_time: self.is_over_time() };
         let mut drawing = tracks::drawing(styles, &self.tracks, &healthy, style);
+        if let Some(BeforeLine { track, colour, .. }) = &self.before {
+            let places = track.places().map(|(_, _, at)| at).collect();
+            drawing.curves.insert(0, Curve::new(LineStyle::solid(*colour, BEFORE), places));
+        }
         if !style.is_over_time {
             drawing.switch_mark = SwitchMark::Ring;
         }
@@ -356,7 +401,7 @@ impl PlotModel {
     pub(super) fn readouts(&self, studio: &Studio, styles: &SeriesStyles, t: f64) -> Vec<Readout> {
         let lanes = self.tracks.iter().filter_map(|track| {
             let (entry, at) = track.at(t)?;
-            let key = if styles.is_race { format!("{}", entry + 1) } else { String::new() };
+            let key = if styles.is_race { styles.number(entry).to_string() } else { String::new() };
             let (colour, name) = (styles.series[entry].colour, joined(&key, track.part));
             Some(Readout { entry: Some(entry), colour, is_front: track.is_front, name, at })
         });
@@ -364,7 +409,12 @@ impl PlotModel {
             let (at, name) = (line.at((studio, self.body), t)?, joined("", line.part));
             Some(Readout { entry: None, colour: styles.exact_colour, is_front: true, name, at })
         });
-        lanes.chain(exact).collect()
+        let before = self.before.iter().filter_map(|line| {
+            let (_, at) = line.track.at(t)?;
+            let (colour, name) = (line.colour, line.name.clone());
+            Some(Readout { entry: None, colour, is_front: true, name, at })
+        });
+        lanes.chain(exact).chain(before).collect()
     }
 }
 

@@ -2,7 +2,7 @@ use egui::{Event, Modifiers, MouseWheelUnit, Pos2, Rect, TouchPhase, Vec2, vec2}
 use rayon::prelude::*;
 
 use super::super::tracks::Detail;
-use super::error::{NO_ERROR, capitalised};
+use super::error::{NO_ERROR, NOTHING_YET, capitalised};
 use super::*;
 use crate::measure::cloud::{CloudChoice, CloudWorker};
 use crate::scene::{Action, SCENES, Scene};
@@ -46,7 +46,8 @@ fn assert_legible(studio: &Studio, what: &str) {
     for plot in &set.plots {
         if let Some(why) = &plot.nothing {
             assert!(place(why).is_some(), "{what}: {why}");
-            assert!(why == NO_ERROR || METRICS.iter().any(|metric| metric.absent == why));
+            let is_of_error = [NO_ERROR, NOTHING_YET].contains(&&**why);
+            assert!(is_of_error || METRICS.iter().any(|metric| metric.absent == why));
             continue;
         }
         let title = place(&plot.title).unwrap_or_else(|| panic!("{what}: {}", plot.title));
@@ -111,6 +112,82 @@ fn a_plot_in_a_low_window_takes_the_room_of_its_legend() {
         // There is a 0 on the axis of time, and another one between 1 m and −1 m.
         assert_eq!(texts.iter().filter(is_nought).count(), 2, "{size}: {texts:?}");
     }
+}
+
+/// A solo run of the ship under explicit Euler, with the plot of its error.
+fn ship_at(tick_hz: u32) -> Studio {
+    let mut studio = Studio::new(Scene::built_in("ship").unwrap());
+    studio.apply(StageCommand::Instrument(Instrument::Error));
+    studio.apply(StageCommand::TickHz(tick_hz.into()));
+    studio.apply(StageCommand::Restart);
+    studio
+}
+
+#[test]
+fn an_error_before_the_first_tick_is_not_called_zero() {
+    let mut studio = ship_at(2);
+    let nothing =
+        |studio: &Studio| plot_set_of(studio, Detail::Samples).unwrap().plots[0].nothing.clone();
+    assert_eq!(nothing(&studio).as_deref(), Some(NOTHING_YET));
+    (0..4).for_each(|_| studio.tick());
+    assert_eq!(nothing(&studio), None);
+}
+
+#[test]
+fn a_restart_at_another_tick_rate_keeps_the_run_before_as_a_curve() {
+    let mut studio = ship_at(2);
+    let before = |studio: &Studio| {
+        let set = plot_set_of(studio, Detail::Samples).unwrap();
+        let legend: Vec<String> = legend_entries(&set).into_iter().map(|it| it.name).collect();
+        let plot = &set.plots[0];
+        plot.before.as_ref().map(|before| {
+            let [low, high] = plot.fit[1];
+            let fits = |y: f64| (low..=high).contains(&y);
+            assert!(before.track.along(1).all(fits), "it is within the axis");
+            assert!(plot.tracks[0].along(1).all(fits), "so is the present run");
+            assert!(legend.contains(&format!("before: {}", before.name)), "{legend:?}");
+            (before.name.clone(), before.track.times().unwrap().1)
+        })
+    };
+    assert_eq!(before(&studio), None);
+    (0..8).for_each(|_| studio.tick());
+    studio.apply(StageCommand::TickHz(5.into()));
+    assert_eq!(before(&studio), None, "the run goes on");
+    (0..5).for_each(|_| studio.tick());
+    studio.apply(StageCommand::Restart);
+    assert_eq!(before(&studio), Some(("2 Hz".into(), 4.0)), "up to the change");
+    for instrument in [Instrument::Error, Instrument::Motion] {
+        studio.apply(StageCommand::Instrument(instrument));
+        (0..20).for_each(|_| studio.tick());
+        assert_eq!(before(&studio), Some(("2 Hz".into(), 4.0)));
+    }
+    studio.apply(StageCommand::Restart);
+    assert_eq!(before(&studio), Some(("2 Hz".into(), 4.0)), "an equal run replaces nothing");
+    (0..20).for_each(|_| studio.tick());
+    studio.apply(StageCommand::Pick(2));
+    studio.apply(StageCommand::Restart);
+    assert_eq!(before(&studio), Some(("Explicit Euler".into(), 4.0)));
+    studio.apply(StageCommand::Scene(0));
+    assert_eq!(before(&studio), None);
+}
+
+#[test]
+fn the_energies_beside_the_plot_are_those_of_the_table() {
+    let mut studio = Studio::new(Scene::built_in("harbour").unwrap());
+    studio.apply(StageCommand::ToggleRace);
+    studio.apply(StageCommand::Instrument(Instrument::Energy));
+    let mut compared = 0;
+    for _ in 0..25 {
+        (0..4).for_each(|_| _ = studio.advance(123_456_789));
+        let texts = texts(&studio, vec2(1904.0, 1000.0));
+        let gains = texts.iter().filter(|(_, it)| it.starts_with('+') && it.ends_with(" %"));
+        for (_, gain) in gains {
+            let is_beside = |(_, text): &(Rect, String)| text == gain.trim_start_matches('+');
+            assert!(texts.iter().any(is_beside), "{gain}");
+            compared += 1;
+        }
+    }
+    assert!(compared > 50, "{compared}");
 }
 
 #[test]

@@ -73,7 +73,7 @@ fn marks<'a>() -> [Column<Row<'a>>; 3] {
         |ui, row: &Row<'a>, rect, _| {
             if row.is_first {
                 let is_strong = row.entry == row.studio.active();
-                show_words(ui, rect, &row.method_name(), is_strong, row.text(ui));
+                show_words(ui, rect, &row.head(), is_strong, row.text(ui));
             }
         },
         |row| SortKey::Words(row.spec.method.name.into()),
@@ -94,7 +94,7 @@ fn body<'a>() -> Column<Row<'a>> {
 /// Returns the column of verdicts. Its head names the judged body if all verdicts are about the same one. In a race,
 /// the head also names the body whose numbers follow.
 fn verdict<'a>(studio: &Studio) -> Column<Row<'a>> {
-    let about = "the effect of this method on the scene at this tick rate: its worst body, judged in a separate run; \
+    let about = "what follows under this method at this tick rate: its worst body, from the last change of the run on; \
                  click to sort from best to worst";
     let bodies = &studio.scene().bodies;
     let whose = row::judged_body(studio).map(|body| format!(" ({})", bodies[body].name));
@@ -129,8 +129,8 @@ fn exact<'a>() -> Column<Row<'a>> {
 
 fn error<'a>() -> Column<Row<'a>> {
     let text = |row: &Row<'a>| row.in_unit(row.largest_error()?);
-    let about = "largest difference from the exact solution in a coordinate so far: since the start, or since the body was put elsewhere";
-    Column::number("error", (88.0, 2), about, text, Row::largest_error)
+    let about = "largest difference from the exact solution in a coordinate since the start";
+    Column::number("error", (88.0, 2), about, text, Row::largest_error).headed("error so far")
 }
 
 /// Returns the measures of a body that follows a target.
@@ -161,7 +161,8 @@ fn energy<'a>() -> Column<Row<'a>> {
     let about = "energy gained or lost, in percent of the energy that the exact swing exchanges, or else of the most \
                  that the exact body had; in joules if neither is known; without a truth, all the energy of the \
                  body";
-    Column::number("energy", (98.0, 3), about, text, |row| Some(row.energy()?.0))
+    let column = Column::number("energy", (98.0, 3), about, text, |row| Some(row.energy()?.0));
+    column.headed("energy now")
 }
 
 fn evaluations<'a>() -> Column<Row<'a>> {

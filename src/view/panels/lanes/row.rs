@@ -74,7 +74,7 @@ impl<'a> Row<'a> {
 
     /// Returns the further findings of the verdict.
     pub(super) fn details(&self) -> Vec<String> {
-        let verdict = self.studio.viewer.verdict(self.entry);
+        let verdict = self.studio.viewer.verdict_from_here(&self.studio.deck, self.entry);
         let of_row = |verdict: &'a Verdict| match self.is_of_body {
             true => verdict.of_bodies.get(self.body),
             false => Some(verdict),
@@ -90,6 +90,16 @@ impl<'a> Row<'a> {
     pub(super) fn method_name(&self) -> String {
         let within = self.spec.tolerance.map(|tolerance| format!(" {tolerance:e}"));
         self.spec.name_with_substeps(self.studio.entries()) + &within.unwrap_or_default()
+    }
+
+    /// Returns the digits of both methods for a lane of a race that was switched, or else the method's name.
+    pub(super) fn head(&self) -> String {
+        match self.studio.deck.switched(self.entry) {
+            Some((to, at_s)) => {
+                format!("{} → {} (switched at {at_s:.2} s)", self.entry + 1, to + 1)
+            }
+            None => self.method_name(),
+        }
     }
 
     fn flown_body(&self) -> Option<&'a LaneBody> {

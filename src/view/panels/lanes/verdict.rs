@@ -39,7 +39,7 @@ pub(super) fn text_of(
         let wordings = vec![all.join("; "), short, did.into()];
         return text(Outcome::of_halt(first), wordings);
     }
-    let verdict = studio.viewer.verdict(entry);
+    let verdict = studio.viewer.verdict_from_here(&studio.deck, entry);
     let verdict = match body {
         Some(body) => verdict.and_then(|verdict| verdict.of_bodies.get(body)),
         None => verdict,
@@ -53,12 +53,8 @@ pub(super) fn text_of(
         };
     };
     let is_named = body.is_none() && named_above != Some(verdict.body);
-    let wordings = match studio.deck.is_judged_apart() {
-        true => verdict.wordings_of_another_run(is_named),
-        false => verdict.wordings(is_named),
-    };
-    let is_current = studio.viewer.is_judged_at(entry, studio.clock().tick_hz());
-    VerdictText { is_current, ..text(verdict.outcome(), wordings) }
+    let is_current = studio.viewer.is_judged_now(&studio.deck, entry);
+    VerdictText { is_current, ..text(verdict.outcome(), verdict.wordings(is_named)) }
 }
 
 fn text(outcome: Outcome, wordings: Vec<String>) -> VerdictText {

@@ -28,9 +28,15 @@ const MARK: f32 = 6.0;
 /// Radii of the dots of neighbouring lanes. They differ because the dots may coincide.
 const DOTS: [f32; 2] = [2.6, 4.4];
 
-/// Returns the length of the plot in milliseconds.
+/// Number of ticks that the plot shows at low tick rates, and the maximum of its length for them, in milliseconds.
+const TICKS: f64 = 2.0;
+const MAX_LENGTH_MS: f64 = 2000.0;
+
+/// Returns the length of the plot in milliseconds. A loop is behind by one or two ticks, and has to be on the plot.
 fn length_ms(loops: &LoopLab) -> f64 {
-    FRAMES * 1000.0 / loops.traces()[loops.trace()].refresh().hz()
+    let frames_ms = FRAMES * 1000.0 / loops.traces()[loops.trace()].refresh().hz();
+    let ticks_ms = TICKS * 1000.0 / f64::from(loops.scene().tick_hz);
+    frames_ms.max(ticks_ms.min(MAX_LENGTH_MS))
 }
 
 /// Returns the frames of a lane in the plot, from the frame that was on display at the plot's left edge to the present
@@ -202,6 +208,24 @@ fn hover(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::loops::loop_lab::LoopCommand;
+    use crate::scene::Scene;
+    use crate::stage::TickRate;
+    use crate::studio::{Command, Studio, open_loop_lab_on, run_loops};
+
+    #[test]
+    fn the_loops_of_a_ship_at_two_ticks_per_second_are_on_the_plot() {
+        let mut studio = Studio::new(Scene::built_in("ship").unwrap());
+        open_loop_lab_on(&mut studio, "edge");
+        run_loops(&mut studio);
+        studio.apply(Command::Loop(LoopCommand::Seek(3_000_000_000)));
+        let loops = studio.loop_lab().unwrap();
+        assert_eq!(loops.scene().tick_hz, TickRate::from(2));
+        for &place in loops.on_stage() {
+            let lane = &loops.lanes()[place];
+            assert_eq!(off_the_plot(loops, lane), None, "{}", lane.card().name);
+        }
+    }
 
     #[test]
     fn the_range_covers_nearby_lanes_but_no_runaway() {

@@ -133,11 +133,46 @@ fn a_compared_recordings_first_difference_is_marked_and_sought() {
     // The run had not come this far, so it is continued.
     assert_eq!((studio.race().tick(), studio.run().end()), (250, 250));
     let compared = studio.deck.compared().unwrap();
-    let lines = ["first difference: tick 250, lane 1, spring, x", "size: 2 ulps in q, 20 % of it"];
+    let lines = ["differs from 4.167 s on: position of spring, lane 1", "2 ulps apart"];
     assert_eq!((compared.tick(), compared.lines()), (250, lines.map(str::to_owned)));
     assert!(studio.viewer.dialog().is_none());
     studio.tick();
     assert!(studio.deck.compared().is_some());
     studio.apply(StageCommand::Restart);
     assert!(studio.deck.compared().is_none());
+}
+
+#[test]
+fn a_recording_is_checked_while_it_plays_until_a_person_changes_it() {
+    let mut recorded = Studio::new(Scene::built_in("harbour").unwrap());
+    (0..150).for_each(|_| recorded.tick());
+    let text = recorded.deck.recording().unwrap();
+    let play = |text: &str, ticks: u64| {
+        let mut studio = Studio::new(Scene::parse("run.toml", text).unwrap());
+        (0..ticks).for_each(|_| studio.tick());
+        studio
+    };
+    let said = |studio: &Studio| {
+        let labels = crate::stage::compose(studio, [780.0, 440.0]).labels;
+        labels.into_iter().map(|it| it.text).find(|it| it.starts_with("not the same run"))
+    };
+    let same = play(&text, 150);
+    let found: Vec<(u64, bool)> = checks(&same).collect();
+    assert_eq!(found, [(60, true), (120, true), (150, true)]);
+    assert_eq!(said(&same), None);
+    let hash = format!("{:016x}", same.scene().checks[1].hash);
+    let other = format!("{:016x}", same.scene().checks[1].hash ^ 1);
+    assert!(text.contains(&hash), "{text}");
+    let mut wrong = play(&text.replace(&hash, &other), 130);
+    let found: Vec<(u64, bool)> = checks(&wrong).collect();
+    assert_eq!(found, [(60, true), (120, false)]);
+    assert_eq!(said(&wrong).as_deref(), Some("not the same run: tick 120, lane 1"));
+    wrong.apply(RunCommand::Seek(100));
+    assert_eq!(said(&wrong), None, "it is not yet there");
+    // A person's kick is meant to change the run.
+    wrong.apply(RunCommand::Act(Action::Kick(1.0)));
+    (0..60).for_each(|_| wrong.tick());
+    assert_eq!(checks(&wrong).collect::<Vec<_>>(), [(60, true)]);
+    wrong.apply(RunCommand::Undo);
+    assert_eq!(checks(&wrong).count(), 2);
 }

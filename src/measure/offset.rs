@@ -1,0 +1,120 @@
+//! How far a lane is from the truth where its verdict begins.
+//!
+//! Such a lane is judged beside the exact motion from its own state, which shows what its method does from there. The
+//! distance between that motion and the truth is added to the method's errors.
+
+use super::amplitude::Trend;
+use super::criterion::{FREQUENCY_TOLERANCE, TOLERANCE, VISIBLE};
+use super::judge::Judge;
+use super::truth::{BodyTruth, Swing, ticks};
+use super::verdict::{Comparison, Finding, SwingWidths, Verdict};
+use crate::sim::TickRate;
+
+impl Verdict {
+    /// Returns the verdict of `own`, the judge of the exact motion from a lane's state, as one beside the truth of
+    /// `judge`.
+    pub(super) async fn beside(self, own: &Judge, judge: &Judge, tick_hz: TickRate) -> Self {
+        let mut of_bodies = Vec::with_capacity(self.of_bodies.len());
+        for verdict in self.of_bodies {
+            let truths = [own, judge].map(|judge| judge.truth(verdict.body));
+            let finding = match verdict.finding {
+                Finding::Compared(found) => Finding::Compared(beside(found, truths, tick_hz).await),
+                finding => finding,
+            };
+            of_bodies.push(Verdict { finding, ..verdict });
+        }
+        Judge::of_all(of_bodies)
+    }
+}
+
+/// Adds the distance between two exact motions to the errors beside the first.
+async fn beside(found: Comparison, [own, truth]: [&BodyTruth; 2], tick_hz: TickRate) -> Comparison {
+    let distance = Distance::between(own, truth, tick_hz).await;
+    let error = found.error + distance.error;
+    let swings = own.swing.as_ref().zip(truth.swing.as_ref());
+    let widths = [own, truth].map(width_of);
+    // A swing that grows has no width to stay at, so that its width is the present one.
+    let grown = found.width.filter(|_| found.change != Trend::Grows).unwrap_or(1.0);
+    let widths = widths[0].zip(widths[1]);
+    let width = widths.map(|(own, truth)| grown * own / truth).or(found.width);
+    let own_frequency = found.frequency_error.unwrap_or(0.0);
+    let frequency_error = swings
+        .and_then(|(own, truth)| truth.frequency_error(&own.crossings))
+        .map(|error| (1.0 + error) * (1.0 + own_frequency) - 1.0);
+    let is_alike = match width {
+        Some(width) if swings.is_some() => {
+            (width - 1.0).abs() <= VISIBLE
+                && frequency_error.is_none_or(|error| error.abs() <= FREQUENCY_TOLERANCE)
+        }
+        _ => error <= 2.0 * VISIBLE,
+    };
+    let shift = swings.map_or(0.0, |(own, truth)| own.lead_s(truth));
+    let is_shifted = found.early_s.is_some() || distance.error > TOLERANCE;
+    Comparison {
+        error,
+        error_at_s: if distance.error > found.error { distance.at_s } else { found.error_at_s },
+        last_error: found.last_error + distance.last,
+        looks_right: found.looks_right.map(|looks_right| looks_right && is_alike),
+        width,
+        widths: widths.zip(swings).filter(|_| truth.energy_scale.is_some()).map(
+            |((own, exact), (_, swing))| SwingWidths {
+                own: grown * own,
+                truth: exact,
+                unit: truth.coordinates().at(swing.coordinate).shown_unit(),
+            },
+        ),
+        early_s: Some(found.early_s.unwrap_or(0.0) + shift)
+            .filter(|_| is_shifted && swings.is_some()),
+        frequency_error: frequency_error.or(found.frequency_error),
+        ..found
+    }
+}
+
+/// Returns half the width of a body's swing, in the unit of the swinging coordinate.
+fn width_of(truth: &BodyTruth) -> Option<f64> {
+    let swing = truth.swing.as_ref()?;
+    Some(swing.widest() * truth.amplitudes[swing.coordinate]).filter(|&width| width > 0.0)
+}
+
+impl Swing {
+    /// Returns the seconds by which this swing is ahead of `other`, in 0 ± half a period.
+    fn lead_s(&self, other: &Self) -> f64 {
+        let period = other.period();
+        libm::remainder(other.crossings[0] - self.crossings[0], period)
+    }
+}
+
+/// The distance between two exact motions at the ticks of a rate, in amplitudes of the second.
+struct Distance {
+    /// Largest distance of a coordinate or a velocity, and its time in seconds.
+    error: f64,
+    at_s: f64,
+    /// Largest distance in the last twentieth of the horizon.
+    last: f64,
+}
+
+impl Distance {
+    async fn between(own: &BodyTruth, truth: &BodyTruth, tick_hz: TickRate) -> Self {
+        let series = [own.series(tick_hz).await, truth.series(tick_hz).await];
+        let horizon = ticks(truth.horizon_s, tick_hz);
+        let mut distance = Self { error: 0.0, at_s: 0.0, last: 0.0 };
+        for tick in 1..=horizon {
+            let [Some(own), Some(exact)] = [&series[0], &series[1]].map(|it| it.at(tick)) else {
+                break;
+            };
+            let parts = own.iter().zip(exact).zip(&truth.amplitudes);
+            let parts = parts.map(|((own, exact), amplitude)| match (own - exact).abs() {
+                0.0 => 0.0,
+                apart => apart / amplitude,
+            });
+            let off = parts.fold(0.0, f64::max);
+            if off > distance.error {
+                (distance.error, distance.at_s) = (off, tick_hz.seconds(tick));
+            }
+            if 20 * tick > 19 * horizon {
+                distance.last = distance.last.max(off);
+            }
+        }
+        distance
+    }
+}

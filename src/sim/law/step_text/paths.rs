@@ -1,0 +1,184 @@
+//! Reduces the dotted names of other languages, such as `player.velocity.x` and `Mathf.Exp`, to names of a step.
+
+use std::ops::Range;
+
+use super::plain::{is_name_part, lower_name};
+use super::reader::{OTHER_NAMES, STEP_NAMES};
+use super::{BUILT_IN, TARGET, V, X};
+use crate::sim::law::function::Function;
+
+/// Names before a function or a number that are no value.
+const NAMESPACES: [&str; 9] = ["math", "std", "f32", "f64", "glm", "np", "numpy", "this", "self"];
+/// Words before an argument that the call changes.
+const REFERENCES: [&str; 3] = ["ref", "out", "inout"];
+const SEPARATORS: [&str; 3] = [".", "::", "->"];
+
+/// A component of a vector that a text reads or assigns, such as the `x` of `velocity.x`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Component {
+    pub(super) at: usize,
+    pub(super) letter: u8,
+}
+
+/// Blanks all but one name of each dotted name, so that no byte moves. Keeps the point before a method of a value.
+/// Returns the components of vectors.
+pub(super) fn reduce(text: &mut [u8]) -> Vec<Component> {
+    let (mut at, mut components) = (0, Vec::new());
+    while at < text.len() {
+        let before = text[..at].iter().rfind(|byte| !byte.is_ascii_whitespace());
+        let is_argument = matches!(before, Some(b'(' | b','));
+        match text[at] {
+            b'&' if is_argument => text[at] = b' ',
+            // A number, or a method after a value in brackets.
+            byte if byte.is_ascii_digit() || byte == b'.' => {
+                at += 1;
+                while text.get(at).is_some_and(|byte| is_name_part(*byte)) {
+                    at += 1;
+                }
+                continue;
+            }
+            byte if is_name_part(byte) => {
+                let parts = parts(text, at);
+                let end = parts[parts.len() - 1].end;
+                if let [word] = &parts[..] {
+                    let is_reference =
+                        REFERENCES.iter().any(|it| it.as_bytes() == &text[word.clone()]);
+                    if is_argument && is_reference && text.get(end) == Some(&b' ') {
+                        text[word.clone()].fill(b' ');
+                    }
+                } else {
+                    components.extend(reduce_path(text, &parts));
+                }
+                at = end;
+                continue;
+            }
+            _ => {}
+        }
+        at += 1;
+    }
+    components
+}
+
+/// Returns the names of the dotted name at a byte.
+fn parts(text: &[u8], mut at: usize) -> Vec<Range<usize>> {
+    let mut parts = Vec::new();
+    loop {
+        let length = text[at..].iter().take_while(|byte| is_name_part(**byte)).count();
+        parts.push(at..at + length);
+        let rest = &text[at + length..];
+        let separator = SEPARATORS.iter().find(|separator| rest.starts_with(separator.as_bytes()));
+        let begins_name = |byte: &u8| byte.is_ascii_alphabetic() || *byte == b'_';
+        match separator {
+            Some(separator) if rest.get(separator.len()).is_some_and(begins_name) => {
+                at += length + separator.len();
+            }
+            _ => return parts,
+        }
+    }
+}
+
+fn reduce_path(text: &mut [u8], parts: &[Range<usize>]) -> Option<Component> {
+    let name = |part: &Range<usize>| String::from_utf8_lossy(&text[part.clone()]).into_owned();
+    let names: Vec<String> = parts.iter().map(name).collect();
+    let (first, last, end) = (&names[0], parts.len() - 1, parts[parts.len() - 1].end);
+    let blanks = text[end..].iter().take_while(|byte| **byte == b' ').count();
+    let is_call = text.get(end + blanks) == Some(&b'(');
+    let is_namespace = first.starts_with(|c: char| c.is_ascii_uppercase())
+        || text[parts[0].end] == b':'
+        || NAMESPACES.contains(&&**first) && (parts.len() == 2 || !is_call);
+    let is_step_call =
+        STEP_NAMES.contains(&&*names[last]) && text[end + blanks..].starts_with(b"()");
+    let mut component = None;
+    let mut kept = vec![last];
+    if is_step_call {
+        text[end + blanks..end + blanks + 2].fill(b' ');
+    } else if !(is_namespace && is_call) {
+        let values = &names[..parts.len() - usize::from(is_call)];
+        let (value, letter) = meant(values);
+        component = letter.map(|letter| Component { at: parts[value].start, letter });
+        kept = if is_call { vec![value, last] } else { vec![value] };
+        if is_call {
+            text[parts[last].start - 1] = b'.';
+        }
+    }
+    let path = parts[0].start..end;
+    let is_kept = |at: usize| {
+        kept.iter().any(|part| parts[*part].contains(&at))
+            || kept.len() > 1 && at + 1 == parts[last].start
+    };
+    path.filter(|at| !is_kept(*at)).for_each(|at| text[at] = b' ');
+    if is_namespace {
+        lower_name(&mut text[parts[kept[0]].start..]);
+    }
+    component
+}
+
+/// Returns the index of the name that is a number of a step, and the letter of its component.
+fn meant(names: &[String]) -> (usize, Option<u8>) {
+    let is = |index: usize, name: &str| {
+        let others = OTHER_NAMES.iter().find(|(other, _)| *other == index);
+        BUILT_IN[index] == name || others.is_some_and(|(_, names)| names.contains(&name))
+    };
+    let last = names.len() - 1;
+    let letter = match &*names[last].to_ascii_lowercase() {
+        "x" => Some(b'x'),
+        "y" => Some(b'y'),
+        "z" => Some(b'z'),
+        _ => None,
+    };
+    let letter_of = |value: usize| letter.filter(|_| value != last);
+    if let Some(target) = names.iter().position(|name| is(TARGET, name)) {
+        return (target, letter_of(target));
+    }
+    let owner = last.checked_sub(1).filter(|_| letter.is_some());
+    match owner.filter(|owner| [X, V].iter().any(|index| is(*index, &names[*owner]))) {
+        Some(owner) => (owner, letter),
+        None => (last, None),
+    }
+}
+
+/// Returns the byte range of the velocity that a value changes, if it is a call of Unity's `SmoothDamp`.
+pub(super) fn damped_velocity(text: &str, value: &Range<usize>) -> Option<Range<usize>> {
+    let call = &text[value.clone()];
+    let open = call.find('(')?;
+    let function = Function::named_in_steps(call[..open].trim())?;
+    let (mut depth, mut commas) = (0, Vec::new());
+    for (at, sign) in call.char_indices() {
+        depth += i32::from(sign == '(') - i32::from(sign == ')');
+        commas.extend((sign == ',' && depth == 1).then_some(at));
+    }
+    let argument = &call[commas.get(1)? + 1..*commas.get(2)?];
+    let name = argument.trim();
+    let start = value.start + commas[1] + 1 + argument.find(name)?;
+    let is_name = name.bytes().all(is_name_part) && !name.is_empty();
+    (function.name == SMOOTH_DAMP && is_name).then_some(start..start + name.len())
+}
+
+/// Unity's spring, which also assigns its velocity.
+pub(super) const SMOOTH_DAMP: &str = "smoothDamp";
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_dotted_name_becomes_one_name_and_no_byte_moves() {
+        for (written, read, letters) in [
+            ("v *= Mathf.Exp(-k)", "v *=       exp(-k)", ""),
+            ("player.velocity.x *= 0.9", "       velocity   *= 0.9", "x"),
+            ("position.lerp(target.position, 1)", "position.lerp(target         , 1)", ""),
+            ("this.pos->lerp(goal.y, 1)", "     pos .lerp(goal  , 1)", "y"),
+            ("this.x += rb.speed", "     x +=    speed", ""),
+            ("std::f64::consts::PI", "                  pi", ""),
+            ("time.delta_secs()", "     delta_secs  ", ""),
+            ("f(x, ref vel, &v) & 0.5.abs()", "f(x,     vel,  v) & 0.5.abs()", ""),
+            ("FMath::FInterpTo(x)", "       fInterpTo(x)", ""),
+        ] {
+            let mut text = written.as_bytes().to_vec();
+            let found = reduce(&mut text);
+            assert_eq!(String::from_utf8(text).unwrap(), read, "{written}");
+            let found: String = found.iter().map(|of| char::from(of.letter)).collect();
+            assert_eq!(found, letters, "{written}");
+        }
+    }
+}

@@ -1,0 +1,63 @@
+//! The run before the last restart, which the plots keep beside the present run for comparison.
+
+use super::deck::Deck;
+use crate::run::past::History;
+use crate::run::race::Author;
+use crate::scene::{Action, LaneSpec};
+use crate::sim::TickRate;
+
+/// The run before the last restart, under another tick rate or another method.
+pub struct RunBefore {
+    /// The past of each body in the lane that was selected.
+    pub histories: Vec<History>,
+    /// Time in seconds at which a person first changed the tick rate or the method of that run; infinity without a
+    /// change. Later samples belong to neither run.
+    pub until_s: f64,
+    /// What that run had instead, such as `2 Hz` or `Explicit Euler`.
+    pub name: String,
+}
+
+/// A run that is about to restart.
+pub(super) struct EndingRun {
+    histories: Vec<History>,
+    until_s: f64,
+    began: (TickRate, LaneSpec),
+}
+
+/// The tick rate and the method with which a run begins, with all changes before its first tick, and the time of the
+/// first later change.
+fn beginning(deck: &Deck) -> ((TickRate, LaneSpec), f64) {
+    let (start, selected) = (deck.run.start(), deck.selected());
+    let spec = start.entrant(selected.id).map_or(selected.spec, |entrant| entrant.spec);
+    let mut began = (start.tick_hz(), spec);
+    for row in deck.run.session().journal().rows() {
+        let is_by_hand = row.author == Author::Person;
+        match &row.action {
+            Action::TickHz(tick_hz) if is_by_hand && row.tick == 0 => began.0 = *tick_hz,
+            Action::Lane { spec, .. } if is_by_hand && row.tick == 0 => began.1 = *spec,
+            Action::TickHz(_) | Action::Lane { .. } if is_by_hand => return (began, row.at_s),
+            _ => {}
+        }
+    }
+    (began, f64::INFINITY)
+}
+
+impl EndingRun {
+    /// The run that a restart is about to replace, if it has made a tick.
+    pub(super) fn of(deck: &Deck) -> Option<Self> {
+        let (began, until_s) = beginning(deck);
+        let histories = deck.past().histories(deck.selected().id).to_vec();
+        (deck.run.end() > 0).then_some(Self { histories, until_s, began })
+    }
+
+    /// The run for comparison with the one that has begun now, if the two differ.
+    pub(super) fn before(self, deck: &Deck) -> Option<Box<RunBefore>> {
+        let ((tick_hz, spec), now) = (self.began, beginning(deck).0);
+        let name = match now {
+            (now_hz, _) if now_hz != tick_hz => format!("{tick_hz:.3} Hz"),
+            (_, now_spec) if now_spec != spec => spec.method.name.to_owned(),
+            _ => return None,
+        };
+        Some(Box::new(RunBefore { histories: self.histories, until_s: self.until_s, name }))
+    }
+}

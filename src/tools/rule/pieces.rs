@@ -1,0 +1,246 @@
+//! A rule in pieces, each of which is a linear rule where its condition holds.
+
+use std::sync::Arc;
+
+use super::Rule;
+use crate::sim::law::{Frame, SwitchKind};
+
+/// Number of states that are tried to find the pieces, and the decades over which they spread.
+const TRIED: u32 = 2000;
+const DECADES: [f64; 2] = [-5.0, 4.0];
+/// The last decade if a switch has a piece for each whole number.
+const MANY_DECADE: f64 = 1.5;
+/// A distance at which a rule is at rest.
+const REST: f64 = 1e-12;
+/// The maximum number of pieces, and of ways in which the switches of a rule are set.
+const MAX_PIECES: usize = 6;
+const MAX_MODES: usize = 128;
+/// The largest difference of two numbers that are alike, relative to them.
+const ALIKE: f64 = 1e-9;
+/// Spellings of the distance to the target.
+const DISTANCES: [&str; 4] =
+    ["abs(target-x)", "abs(x-target)", "fabs(target-x)", "(target-x).abs()"];
+
+/// The part of a rule in which all states move by one map.
+#[derive(Debug)]
+pub struct Piece {
+    /// Where the rule moves by this map.
+    pub condition: String,
+    /// The rule by this map alone.
+    pub rule: Rule,
+    modes: Vec<Vec<i64>>,
+}
+
+/// What a frame of a piece does, if it is no motion by itself.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Course {
+    /// It is at its rest after the frame.
+    Stops,
+    /// It stays where it is.
+    Stays,
+    /// It moves at this speed, whatever the distance.
+    Moves(f64),
+}
+
+impl Rule {
+    /// Returns the pieces of a rule that is linear only piece by piece; empty for all other rules.
+    pub fn pieces(&self) -> Vec<Piece> {
+        let has_many = self.text.switches().any(|(kind, _)| kind == SwitchKind::Many);
+        let mut pieces = self.find_pieces().unwrap_or_default();
+        match &mut pieces[..] {
+            [one] if has_many => one.condition = "in each turn".into(),
+            [_] => return Vec::new(),
+            _ => {}
+        }
+        pieces
+    }
+
+    fn find_pieces(&self) -> Option<Vec<Piece>> {
+        let (text, h) = (&self.text, self.step_length(self.fps));
+        let switches: Vec<(SwitchKind, &str)> = text.switches().collect();
+        if self.is_linear || switches.is_empty() || self.state.len() > 2 {
+            return None;
+        }
+        let has_many = switches.iter().any(|(kind, _)| *kind == SwitchKind::Many);
+        let last_decade = if has_many { MANY_DECADE } else { DECADES[1] };
+        let mut seed = 1_u64;
+        let mut random = || {
+            seed = seed
+                .wrapping_mul(6_364_136_223_846_793_005)
+                .wrapping_add(1_442_695_040_888_963_407);
+            (seed >> 11) as f64 / (1_u64 << 53) as f64
+        };
+        let rest: Vec<f64> = text.carried().iter().map(|_| REST).collect();
+        let mut groups: Vec<(Frame, Vec<Vec<i64>>)> = Vec::new();
+        for _ in 0..TRIED {
+            let mut at = vec![0.0; rest.len()];
+            for index in &self.state {
+                let decade = DECADES[0] + (last_decade - DECADES[0]) * random();
+                at[*index] = libm::exp10(decade) * if random() < 0.5 { -1.0 } else { 1.0 };
+            }
+            let modes = text.modes(h, &at, 0.0);
+            if groups.iter().any(|(_, known)| known.contains(&modes)) {
+                continue;
+            }
+            let frame = text.frame_on(&modes, &self.state, h)?;
+            if !self.is_affine(&modes, &at) {
+                return None;
+            }
+            let is_it = |(other, _): &&mut (Frame, _)| is_alike(other, &frame, has_many);
+            match groups.iter_mut().find(is_it) {
+                Some((_, all)) => all.push(modes),
+                None => groups.push((frame, vec![modes])),
+            }
+            let all: usize = groups.iter().map(|(_, modes)| modes.len()).sum();
+            if groups.len() > MAX_PIECES || all > MAX_MODES {
+                return None;
+            }
+        }
+        let at_rest = text.modes(h, &rest, 0.0);
+        let labels: Vec<String> =
+            groups.iter().map(|(_, modes)| self.label(modes, &groups, &at_rest)).collect();
+        let mut pieces: Vec<Piece> = groups
+            .iter()
+            .zip(labels)
+            .map(|((_, modes), condition)| {
+                let modes = modes.clone();
+                let mut rule = Rule::with_state(Arc::clone(&text), self.fps, self.state.clone());
+                (rule.units, rule.within, rule.is_linear) = (self.units, self.within, true);
+                rule.modes.clone_from(&modes[0]);
+                Piece { condition, rule: rule.settled(), modes }
+            })
+            .collect();
+        let truth = |piece: &Piece| {
+            let mut all = piece.modes[0].iter().zip(&switches);
+            all.find(|(_, (kind, _))| *kind == SwitchKind::Condition).map_or(0, |(mode, _)| -*mode)
+        };
+        // A motion comes before a stop.
+        let ends = |piece: &Piece| matches!(piece.course(), Some(Course::Stops | Course::Stays));
+        pieces.sort_by_key(|piece| (ends(piece), truth(piece)));
+        let others: Vec<String> = pieces.iter().rev().map(|it| it.condition.clone()).collect();
+        for (piece, other) in
+            pieces.iter_mut().zip(&others).filter(|(it, _)| it.condition.is_empty())
+        {
+            piece.condition = match other.strip_prefix("within ") {
+                Some(limits) if others.len() == 2 => format!("beyond {limits}"),
+                _ => "elsewhere".into(),
+            };
+        }
+        Some(pieces)
+    }
+
+    /// Whether a frame with these modes is an affine map up to rounding.
+    fn is_affine(&self, modes: &[i64], at: &[f64]) -> bool {
+        let (text, h) = (&self.text, self.step_length(self.fps));
+        let zero = text.map_on(modes, h, &vec![0.0; at.len()], 0.0);
+        let found = text.map_on(modes, h, at, 0.0);
+        self.state.iter().all(|row| {
+            let parts: Vec<f64> =
+                at.iter().enumerate().map(|(column, x)| zero.columns[column][*row] * x).collect();
+            let size = parts.iter().fold(zero.values[*row].abs(), |size, part| size + part.abs());
+            let expected = zero.values[*row] + parts.iter().sum::<f64>();
+            (found.values[*row] - expected).abs() <= ALIKE * size.max(f64::MIN_POSITIVE)
+        })
+    }
+
+    /// Returns the condition that the modes of a piece have in common.
+    fn label(
+        &self,
+        modes: &[Vec<i64>],
+        groups: &[(Frame, Vec<Vec<i64>>)],
+        at_rest: &[i64],
+    ) -> String {
+        let mut parts: Vec<String> = Vec::new();
+        for (index, (kind, source)) in self.text.switches().enumerate() {
+            let mode = modes[0][index];
+            let is_common = modes.iter().all(|modes| modes[index] == mode);
+            let mut all = groups.iter().flat_map(|(_, modes)| modes);
+            if !is_common || all.all(|modes| modes[index] == mode) {
+                continue;
+            }
+            let source = source.split_whitespace().collect::<Vec<_>>().join(" ");
+            let part = match kind {
+                SwitchKind::Condition => condition(&source, mode == 1),
+                SwitchKind::Limit if mode == at_rest[index] => {
+                    format!("within the limits of `{source}`")
+                }
+                SwitchKind::Limit => format!("at a limit of `{source}`"),
+                SwitchKind::Sign if mode == 1 => format!("`{source}` of a number above 0"),
+                SwitchKind::Sign => format!("`{source}` of a number below 0"),
+                SwitchKind::Many => continue,
+            };
+            if !parts.contains(&part) {
+                parts.push(part);
+            }
+        }
+        parts.join(" and ")
+    }
+}
+
+impl Piece {
+    /// Returns what a frame does at the author's rate, unless it is a motion by itself.
+    pub fn course(&self) -> Option<Course> {
+        let rule = &self.rule;
+        let frame = rule.frame(rule.fps)?;
+        let is_0 = |number: f64| number.abs() <= ALIKE;
+        if rule.motion(rule.fps)?.radius() <= ALIKE {
+            return Some(Course::Stops);
+        }
+        let keeps = is_0(frame.map.m11 - 1.0) && is_0(frame.map.m12) && is_0(frame.by_target.x);
+        keeps.then(|| match frame.offset.x {
+            offset if is_0(offset) => Course::Stays,
+            offset => Course::Moves(offset.abs() * rule.fps),
+        })
+    }
+
+    /// Returns when the whole `rule` first is in this piece at the author's rate, in seconds, from rest at 1.
+    pub fn reached_s(&self, rule: &Rule) -> Option<f64> {
+        let (text, h) = (&rule.text, rule.step_length(rule.fps));
+        let mut registers = text.registers();
+        text.set(&mut registers, rule.state[0], 1.0);
+        let frames = (super::WATCHED_S * rule.fps).min(super::MAX_WATCHED) as u32;
+        let at_frame = |_: &u32| {
+            let at: Vec<f64> =
+                (0..text.carried().len()).map(|index| text.value(&registers, index)).collect();
+            text.step(&mut registers, h, 0.0);
+            self.modes.contains(&text.modes(h, &at, 0.0))
+        };
+        (1..=frames).find(at_frame).map(|frame| f64::from(frame) / rule.fps)
+    }
+}
+
+/// Whether two pieces move alike, perhaps in opposite directions.
+fn is_alike(a: &Frame, b: &Frame, any_offset: bool) -> bool {
+    let near = |a: f64, b: f64| (a - b).abs() <= ALIKE * (1.0 + a.abs().max(b.abs()));
+    let mut numbers = a.map.iter().chain(&a.by_target).zip(b.map.iter().chain(&b.by_target));
+    let mut offsets = a.offset.iter().zip(&b.offset);
+    numbers.all(|(a, b)| near(*a, *b))
+        && (any_offset || offsets.all(|(a, b)| near(a.abs(), b.abs())))
+}
+
+/// Writes a comparison of the lines that is true or false.
+fn condition(source: &str, is_true: bool) -> String {
+    const OPPOSITES: [(&str, &str); 6] =
+        [("<=", ">"), (">=", "<"), ("==", "!="), ("!=", "=="), ("<", ">="), (">", "<=")];
+    let (mut depth, mut found) = (0, None);
+    for (at, sign) in source.char_indices() {
+        depth += i32::from(sign == '(') - i32::from(sign == ')');
+        let operator = OPPOSITES.iter().find(|(operator, _)| source[at..].starts_with(operator));
+        if depth == 0 && found.is_none() {
+            found = operator.map(|(operator, opposite)| (at, *operator, *opposite));
+        }
+    }
+    let Some((at, operator, opposite)) = found else {
+        return format!("{} {source}", if is_true { "while" } else { "while not" });
+    };
+    let sign = if is_true { operator } else { opposite };
+    let [left, right] = [&source[..at], &source[at + operator.len()..]].map(str::trim);
+    let is_distance = |side: &str| DISTANCES.contains(&&*side.replace(' ', ""));
+    match (is_distance(left), is_distance(right), sign.as_bytes()[0]) {
+        (true, false, b'<') => format!("within {right} of the target"),
+        (true, false, b'>') => format!("beyond {right} of the target"),
+        (false, true, b'<') => format!("beyond {left} of the target"),
+        (false, true, b'>') => format!("within {left} of the target"),
+        _ => format!("while {left} {sign} {right}"),
+    }
+}

@@ -1,0 +1,313 @@
+//! Rules as people paste them: their words, pieces, drives and units.
+
+use std::env;
+
+use regatta::scene::SceneErrors;
+use regatta::tools::Rule;
+use regatta::tools::rule::Course;
+use regatta::tools::source_code::Language;
+
+use crate::rules::{FPS, START, TARGET, code, frames, is_near};
+
+/// Lines as they are pasted, each with the plain lines that it means.
+const PASTED: [(&str, &str); 26] = [
+    (
+        "position = position.lerp(target, 1 - exp(-8 * delta))",
+        "x = lerp(x, target, 1 - exp(-8 * dt))",
+    ),
+    (
+        "velocity = move_toward(velocity, 0, 12 * delta); x += velocity * delta",
+        "v = clamp(0, v - 12 * dt, v + 12 * dt); x += v * dt",
+    ),
+    (
+        "velocity.x = lerp(velocity.x, 0.0, 0.2); x += velocity.x * delta",
+        "v = lerp(v, 0, 0.2); x += v * dt",
+    ),
+    (
+        "let t = 1.0 - (-8.0 * dt).exp(); x += (target - x) * t;",
+        "x += (target - x) * (1 - exp(-8 * dt))",
+    ),
+    ("x = lerp(x, target, 1 - power(0.9, dt * 60))", "x = lerp(x, target, 1 - pow(0.9, dt * 60))"),
+    ("x += (target - x) * (1 - 0.9 ** (dt * 60))", "x += (target - x) * (1 - pow(0.9, dt * 60))"),
+    (
+        "x += (target - x) * (1 - 0.9f32.powf(dt * 60.0))",
+        "x += (target - x) * (1 - pow(0.9, dt * 60))",
+    ),
+    (
+        "this.x += (this.targetX - this.x) * (1 - Math.pow(0.001, dt));",
+        "x += (target - x) * (1 - pow(0.001, dt))",
+    ),
+    ("x = FMath::FInterpTo(x, target, DeltaTime, 5.f);", "x += (target - x) * min(5 * dt, 1)"),
+    (
+        "transform.position = Vector3.Lerp(transform.position, target.position, 5f * Time.deltaTime);",
+        "x = lerp(x, target, 5 * dt)",
+    ),
+    (
+        "player.velocity.x *= 0.9; player.position.x += player.velocity.x * time.delta_secs()",
+        "v *= 0.9; x += v * dt",
+    ),
+    (
+        "pos.x += (target.x - pos.x) * 0.1; pos.y += (target.y - pos.y) * 0.1",
+        "x += (target - x) * 0.1",
+    ),
+    (
+        "local d = target - x\nif d > 1 then\n  x = x + d * 0.1\nelse\n  x = x + d * 0.5\nend",
+        "if target - x > 1 { x += (target - x) * 0.1 } else { x += (target - x) * 0.5 }",
+    ),
+    ("if x > 2 then x = 2 end; x += v * elapsed", "if x > 2 { x = 2 }; x += v * dt"),
+    (
+        "if (x > 2 && v > 0 || !(x < 9)) { v = -v }; x += v",
+        "if x > 2 and v > 0 or not x < 9 { v = -v }; x += v",
+    ),
+    (
+        "v = round(v - 800 * dt); x += v * dt",
+        "let w = v - 800 * dt; v = sign(w) * floor(abs(w) + 0.5); x += v * dt",
+    ),
+    ("x = (x + 5) % 3", "x = fmod(x + 5, 3)"),
+    ("x = (x + 5) mod 3", "let y = x + 5; x = y - 3 * floor(y / 3)"),
+    ("x = Mathf.Repeat(x - 7, 3)", "let y = x - 7; x = y - 3 * floor(y / 3)"),
+    ("x += (target - x) * saturate(20 * dt)", "x += (target - x) * clamp(20 * dt, 0, 1)"),
+    ("x += Mathf.Clamp01(v) * smoothstep(0, 1, 0.5)", "x += clamp(v, 0, 1) * 0.5"),
+    ("x = Mathf.SmoothStep(x, target, 0.5)", "x = lerp(x, target, 0.5)"),
+    (
+        "x = Mathf.MoveTowards(x, target, 3 * Time.deltaTime)",
+        "x = clamp(target, x - 3 * dt, x + 3 * dt)",
+    ),
+    ("x = ceil(v) + trunc(-1.5) + step(1, 2)", "x = -floor(-v) + -1 + 1"),
+    ("x += min(v, 1, 9)", "x += min(min(v, 1), 9)"),
+    ("let power = 0.5; x += (target - x) * power", "x += (target - x) * 0.5"),
+];
+
+#[test]
+fn pasted_lines_move_as_the_plain_lines_that_they_mean() {
+    for (pasted, plain) in PASTED {
+        let all = frames(pasted).into_iter().zip(frames(plain));
+        for (found, expected) in all {
+            let off = [0, 1].map(|n| (found[n] - expected[n]).abs());
+            assert!(off.iter().all(|off| *off < 1e-12), "{pasted}: {found:?} for {expected:?}");
+        }
+    }
+    let two = Rule::read(PASTED[11].0, FPS).unwrap();
+    assert_eq!((two.left_out(), two.is_linear()), (Some(['x', 'y']), true));
+    // Unity's spring, by its own lines.
+    let [mut x, mut v] = START;
+    let h = 1.0 / FPS;
+    for found in frames("x = Mathf.SmoothDamp(x, target, ref v, 0.3f);") {
+        let omega = 2.0 / 0.3;
+        let k = omega * h;
+        let kept = 1.0 / (1.0 + k + 0.48 * k * k + 0.235 * k * k * k);
+        let away = x - TARGET;
+        let push = (v + omega * away) * h;
+        (x, v) = (TARGET + (away + push) * kept, (v - omega * push) * kept);
+        assert!((found[0] - x).abs() < 1e-12 && (found[1] - v).abs() < 1e-12, "{found:?}");
+    }
+}
+
+#[test]
+fn a_refusal_points_at_the_part_that_is_meant() {
+    for (text, at, what) in [
+        ("x = x.spring(target)", 6..12, "unknown function `spring`"),
+        ("x = (x + v).length", 12..18, "`length` is one part of a value"),
+        ("x = (x + v).norm", 12..16, "`norm` is one part of a value"),
+        ("pos.x += vel.y", 9..10, "a line mixes the components x and y of vectors"),
+        ("if x > 1 then x = 1", 18..19, "a block is not closed"),
+    ] {
+        let fault = Rule::read(text, FPS).unwrap_err();
+        assert_eq!((fault.span, &*fault.what), (at, what), "{text}");
+    }
+}
+
+#[test]
+fn a_rule_in_pieces_is_told_piece_by_piece() {
+    let pieces = |text: &str| Rule::read(text, FPS).unwrap().pieces();
+    let both = "if target > x { x += (target - x) * 0.9 } else { x += (target - x) * 0.05 }";
+    let found = pieces(both);
+    assert_eq!(found.len(), 2);
+    assert_eq!(
+        (&*found[0].condition, &*found[1].condition),
+        ("while target > x", "while target <= x")
+    );
+    assert!(is_near(found[0].rule.motion_at(60.0).halves_s, 0.005017));
+    assert!(is_near(found[1].rule.motion_at(60.0).halves_s, 0.2252));
+    assert_eq!(code(both, Language::Rust).steps_because, None);
+    let zone = pieces("if abs(target - x) > 2 { x += (target - x) * 0.1 }");
+    assert_eq!(zone[0].condition, "beyond 2 of the target");
+    assert!(is_near(zone[0].rule.motion_at(60.0).halves_s, 0.1096));
+    assert_eq!(zone[1].course(), Some(Course::Stays));
+    let text = "v += (target - x) * 0.1\nv *= 0.8\nx += v\nif abs(target - x) < 0.01 { x = target; v = 0 }";
+    let snap = pieces(text);
+    let seen = snap[0].rule.motion_at(60.0);
+    assert_eq!(snap[0].condition, "beyond 0.01 of the target");
+    assert!(is_near(Some(seen.spring.unwrap().undamped_hz()), 2.864), "{seen:?}");
+    assert!(is_near(seen.spring.unwrap().damping_ratio(), 0.372), "{seen:?}");
+    assert_eq!(snap[1].course(), Some(Course::Stops));
+    assert!(is_near(snap[1].reached_s(&Rule::read(text, FPS).unwrap()), 0.3));
+    let toward = pieces("x = move_toward(x, target, 3 * dt)");
+    let Some(Course::Moves(speed)) =
+        toward.iter().find_map(|piece| piece.course().filter(|it| matches!(it, Course::Moves(_))))
+    else {
+        panic!("{toward:?}")
+    };
+    assert!(is_near(Some(speed), 3.0) && toward.len() == 2);
+    let wrap = pieces("x += (mod(target - x + pi, 2 * pi) - pi) * 0.1");
+    assert!(wrap.len() == 1 && is_near(wrap[0].rule.motion_at(60.0).halves_s, 0.1096), "{wrap:?}");
+    assert!(pieces("x += (target - x) * 0.1").is_empty());
+    assert!(pieces("v -= v * abs(v) * 0.1; x += v * dt").is_empty());
+}
+
+#[test]
+fn a_driven_rule_has_its_top_speed_and_its_acceleration_at_every_rate() {
+    let rule = |text: &str| Rule::read(text, FPS).unwrap();
+    let drag = rule("v += 2000 * dt; v *= 0.92; x += v * dt");
+    for (fps, top) in
+        [(30.0, 766.667), (60.0, 383.333), (120.0, 191.667), (144.0, 159.722), (240.0, 95.833)]
+    {
+        let seen = drag.motion_at(fps);
+        assert!(is_near(seen.top_speed, top) && seen.jump.is_none(), "{seen:?}");
+    }
+    let fall = rule("v -= 6; x += v * dt");
+    assert!(is_near(fall.jump_speed(), 150.0));
+    for (fps, gain, height) in [(30.0, -180.0, 60.0), (60.0, -360.0, 30.0), (144.0, -864.0, 12.5)] {
+        let seen = fall.motion_at(fps);
+        assert!(is_near(seen.accelerates, gain) && seen.top_speed.is_none(), "{seen:?}");
+        assert!(is_near(seen.jump.map(|[height, _]| height), height), "{seen:?}");
+    }
+    let limited = rule("v = min(v + 10 * dt, 5); x += v * dt").motion_at(60.0);
+    assert!(is_near(limited.top_speed, 5.0), "{limited:?}");
+    let still = rule("v = (v + (target - x) * 0.2) * 0.85; x += v").motion_at(60.0);
+    assert_eq!((still.top_speed, still.accelerates), (None, None));
+}
+
+#[test]
+fn a_frame_length_has_its_unit_and_a_rule_its_own_end() {
+    let phaser = |text: &str| Rule::read(text, FPS).unwrap();
+    let slow = phaser("x += (target - x) * 0.006 * delta");
+    let (unit, halves) = slow.other_unit().unwrap();
+    assert!(unit == "ms" && is_near(Some(halves), 0.1096), "{unit} {halves}");
+    let (unit, _) = phaser("x += (target - x) * 0.000005 * delta_time").other_unit().unwrap();
+    assert_eq!(unit, "us");
+    assert!(is_near(slow.in_units(1e3).motion_at(60.0).halves_s, 0.1096));
+    let chase = phaser("x += (target - x) * 0.1");
+    assert!(chase.other_unit().is_none());
+    let end =
+        |within: f64| phaser("x += (target - x) * 0.1").within(within).motion_at(60.0).settles_s;
+    assert!(is_near(end(0.02), f64::ln(0.02) / f64::ln(0.9) / 60.0));
+    assert_eq!(end(0.01), chase.motion_at(60.0).settles_s);
+}
+
+/// Set `RULES` for more lines.
+#[test]
+fn a_thousand_random_lines_are_answered_or_refused_at_a_place() {
+    const PIECES: [&str; 64] = [
+        "x",
+        "v",
+        "target",
+        "dt",
+        "k",
+        " = ",
+        " += ",
+        " -= ",
+        " *= ",
+        " - ",
+        " + ",
+        " * ",
+        " / ",
+        "(",
+        ")",
+        ", ",
+        "; ",
+        "\n",
+        "0.5",
+        "2",
+        "0.1f",
+        "let ",
+        "float ",
+        "memory ",
+        "if ",
+        "{ ",
+        " }",
+        " else ",
+        " < ",
+        " > ",
+        "abs(",
+        "clamp(",
+        "min(",
+        "lerp(",
+        "round(",
+        "mod(",
+        "wrap(",
+        "move_toward(x, target, 3 * dt)",
+        "sign(v)",
+        ".exp()",
+        ".lerp(",
+        ".x",
+        "this.",
+        "velocity.y",
+        " % ",
+        " && ",
+        "!",
+        "**",
+        "then ",
+        "end ",
+        "elseif ",
+        "Mathf.",
+        "std::",
+        "x = Mathf.SmoothDamp(x, target, ref v, 0.3f)",
+        "&",
+        "->",
+        "é",
+        "#",
+        "x += v * dt; ",
+        "v *= 0.9; ",
+        "x += (target - x) * 0.1; ",
+        "if x > 1 { v = -v }; ",
+        "if abs(target - x) < 0.1 { ",
+        "x = target }; ",
+    ];
+    const LINES: [&str; 9] = [
+        "x += v * dt; ",
+        "v *= 0.9; ",
+        "x += (target - x) * 0.1; ",
+        "if x > 1 { v = -v }; ",
+        "x = Mathf.SmoothDamp(x, target, ref v, 0.3f); ",
+        "v = round(v - 800 * dt); ",
+        "x = move_toward(x, target, 3 * dt); ",
+        "if abs(target - x) < 0.1 { x = target }; ",
+        "x = wrap(x, -1, 1); ",
+    ];
+    let count = env::var("RULES").ok().and_then(|count| count.parse().ok()).unwrap_or(1000_u32);
+    let mut seed = 75_u64;
+    println!("seed {seed}");
+    let mut next = || {
+        seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (seed >> 33) as usize
+    };
+    let mut answered = 0;
+    for _ in 0..count {
+        let mut some = |pieces: &[&str], most: usize| -> String {
+            (0..next() % (most + 1)).map(|_| pieces[next() % pieces.len()]).collect()
+        };
+        // Half of the lines are whole ones, with a piece too many at most.
+        let text = match some(&["+"], 1).is_empty() {
+            true => some(&PIECES, 14),
+            false => some(&LINES, 3) + &some(&PIECES, 1) + &some(&LINES, 2),
+        };
+        match Rule::read(&text, FPS) {
+            Ok(rule) => {
+                answered += 1;
+                let _ = (rule.motions(), rule.pieces(), rule.other_unit(), rule.rings_below_fps());
+                let language = Language::ALL[answered as usize % Language::ALL.len()];
+                let _ = rule.code(&text, language);
+            }
+            Err(fault) => {
+                assert!(text.get(fault.span.clone()).is_some(), "{text}: {fault:?}");
+                let said = SceneErrors::of_step("rule", &text, fault).to_string();
+                let place: Vec<&str> = said.split(':').take(3).collect();
+                let are_numbers =
+                    place[1..].iter().all(|part| part.parse::<u32>().is_ok_and(|n| n > 0));
+                assert!(place[0] == "rule" && are_numbers, "{text}: {said}");
+            }
+        }
+    }
+    assert!(answered > count / 10, "{answered} of {count}");
+}
