@@ -24,6 +24,7 @@ use crate::studio::{
 use crate::view::{Modifiers, RendererChoice};
 
 mod canvas;
+mod caught;
 mod clipboard;
 mod display;
 mod error;
@@ -48,6 +49,7 @@ pub use run_of_session::Window;
 pub use settings::{Closed, OnInterrupt, WindowSettings};
 
 use canvas::{Canvas, FrameOutcome};
+use caught::caught;
 use clipboard::Clipboard;
 use error::reason;
 use event::Event;
@@ -55,7 +57,7 @@ use growing_recording::GrowingRecording;
 use opening::RequestedFile;
 use tick_timer::TickTimer;
 use watch::FileWatch;
-use work_thread::{WorkThread, caught};
+use work_thread::WorkThread;
 
 /// Longest time between two simulation steps without a frame. It is well below the clock's longest frame. A window
 /// that is hidden, or gets no requests for frames from the window system, thus drops no ticks.

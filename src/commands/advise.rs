@@ -6,7 +6,7 @@ use std::sync::atomic::Ordering;
 use clap::Args;
 
 use super::error::Error;
-use super::experiment::ExperimentArgs;
+use super::experiment_args::ExperimentArgs;
 use super::help::flowing;
 use super::id::{FAMILY, LANGUAGE};
 use super::interrupt::watch_for_interrupt;

@@ -6,7 +6,8 @@ use std::path::PathBuf;
 use clap::{Args, ValueEnum};
 
 use super::error::{Error, PlaceOf};
-use super::experiment::{self, Experiment, ExperimentArgs, known_trace};
+use super::experiment::{self, Experiment, known_trace};
+use super::experiment_args::ExperimentArgs;
 use super::frame_folder::{FolderPolicy, FrameFolder};
 use super::frame_names::MAX_FRAMES;
 use super::help::flowing;

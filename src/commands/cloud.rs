@@ -10,7 +10,8 @@ use serde_json::json;
 
 use super::argument::{brief, number_that};
 use super::error::Error;
-use super::experiment::{ExperimentArgs, some_seconds};
+use super::experiment::some_seconds;
+use super::experiment_args::ExperimentArgs;
 use super::file_names::{ending, row_format};
 use super::help::flowing;
 use super::id::SHAPE;

@@ -4,7 +4,8 @@ use clap::{Args, ValueEnum};
 use serde_json::{Value, json};
 
 use super::error::Error;
-use super::experiment::{self, ExperimentArgs};
+use super::experiment;
+use super::experiment_args::ExperimentArgs;
 use super::help::flowing;
 use super::output::{print, print_json};
 use super::terminal::print_status;

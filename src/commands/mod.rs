@@ -43,7 +43,9 @@ mod sweep;
 mod trace;
 mod verify;
 
+mod captured;
 mod experiment;
+mod experiment_args;
 mod id;
 mod scene_file;
 mod spring;

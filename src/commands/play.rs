@@ -9,7 +9,8 @@ use annotate_snippets::Renderer;
 use clap::Args;
 
 use super::error::Error;
-use super::experiment::{self, Experiment, ExperimentArgs, known_trace};
+use super::experiment::{self, Experiment, known_trace};
+use super::experiment_args::ExperimentArgs;
 use super::frame_folder::FrameFolder;
 use super::help::flowing;
 use super::id::{RENDERER, THEME};

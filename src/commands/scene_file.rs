@@ -3,12 +3,12 @@
 use std::path::{Path, PathBuf};
 
 use super::argument::brief;
+use super::captured;
 use super::error::Error;
 use super::manifest::FILE_NAME;
 use super::output::Input;
 use super::own_method::is_step;
 use super::terminal::print_status;
-use super::verify;
 
 pub(super) use crate::regular_file::is_link;
 use crate::regular_file::{self, Unreadable};
@@ -33,7 +33,7 @@ pub(super) fn load(path: &Path) -> Result<(Scene, String), Error> {
         return Ok((scene, text));
     }
     if let Some(dir) = capture_at(path) {
-        let scene = verify::scene_of_capture(&dir)?;
+        let scene = captured::scene_of_capture(&dir)?;
         let text = scene.to_toml();
         return Ok((scene, text));
     }
@@ -45,8 +45,8 @@ pub(super) fn load(path: &Path) -> Result<(Scene, String), Error> {
     Ok((scene, String::from_utf8_lossy(&bytes).into_owned()))
 }
 
-/// Returns the folder of the capture at `path`, which is that folder or the manifest in it. Returns `None` if there is no
-/// manifest.
+/// Returns the folder of the capture at `path`, which is that folder or the manifest in it. Returns `None` if there is
+/// no manifest.
 fn capture_at(path: &Path) -> Option<PathBuf> {
     match path.is_dir() {
         true => path.join(FILE_NAME).is_file().then(|| path.to_owned()),
@@ -99,8 +99,8 @@ pub(super) fn is_built_in(path: &Path) -> bool {
     built_in(path).is_some()
 }
 
-/// Whether `path` looks like a scene, which it does if it ends in .toml or .step, is the name of a built-in scene, or is
-/// a folder or the manifest of a capture.
+/// Whether `path` looks like a scene: it ends in .toml or .step, names a built-in scene, or is a folder or the manifest
+/// of a capture.
 pub(super) fn is_name(path: &Path) -> bool {
     is_built_in(path)
         || is_step(path)

@@ -6,7 +6,8 @@ use clap::Args;
 use serde_json::Value;
 
 use super::error::Error;
-use super::experiment::{self, ExperimentArgs};
+use super::experiment;
+use super::experiment_args::ExperimentArgs;
 use super::help::flowing;
 use super::output::Output;
 use super::output::table::{RowFormat, RowWriter};

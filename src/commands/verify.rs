@@ -9,15 +9,12 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use clap::{Args, ValueEnum};
 
 use super::argument::{brief, number_that};
+use super::captured::CapturedRun;
 use super::error::Error;
-use super::experiment::Experiment;
 use super::frame_names::is_of_a_capture;
 use super::help::flowing;
-use super::manifest::{FILE_NAME, Manifest};
 use super::output::same_file_path;
-use super::settings::CaptureSettings;
 use super::state_log::StateLog;
-use crate::scene::{Check, LaneId, Scene};
 use crate::studio::Studio;
 
 mod clip;
@@ -115,39 +112,6 @@ pub(super) fn run(args: &VerifyArgs) -> Result<(), Error> {
     report.outcome()
 }
 
-/// Returns the manifest of the capture in `dir`, and the run that the manifest describes.
-pub(super) fn manifest_of(dir: &Path) -> Result<(Manifest, Experiment), Error> {
-    let rerun = clip::read_run(dir)?;
-    Ok((rerun.manifest, rerun.experiment))
-}
-
-/// Returns the run of the capture in `dir` as a scene, with the states of its marks as checks.
-pub(super) fn scene_of_capture(dir: &Path) -> Result<Scene, Error> {
-    let (manifest, experiment) = manifest_of(dir)?;
-    let (race, opening) = (manifest.settings.race, experiment.opening_method());
-    let lanes = &experiment.scene.lanes;
-    let first =
-        if race { 0 } else { lanes.iter().position(|it| it.method == opening).unwrap_or(0) };
-    let check = |tick: u64, (index, hash): (usize, &String)| {
-        let hash = u64::from_str_radix(hash, 16).map_err(|_| {
-            let file = brief(&dir.join(FILE_NAME));
-            Error::mistake(format!("{file}: {hash:?} is no hash of a state; capture again"))
-        })?;
-        Ok(Check { tick, lane: LaneId::of_index(first + index), hash })
-    };
-    let marks = manifest.marks.iter().flat_map(|mark| {
-        let lanes = mark.lanes.iter().map(|lane| &lane.hash).enumerate();
-        lanes.map(|lane| check(mark.tick, lane))
-    });
-    let checks = marks.collect::<Result<Vec<Check>, Error>>()?;
-    Ok(Scene {
-        checks,
-        opens_as_race: race,
-        opening_method: experiment.selected.or(experiment.scene.opening_method),
-        ..experiment.scene
-    })
-}
-
 /// Whether `path` counts as a scene file. It does if it is a link, a file, or a missing path that ends in `.toml`.
 fn is_scene_file(path: &Path) -> bool {
     super::scene_file::is_link(path)
@@ -188,13 +152,6 @@ fn percent(written: &str) -> Result<f64, String> {
     number_that(written, |it| (0.0..=100.0).contains(&it), "a percentage from 0 to 100")
 }
 
-/// The run of a capture, as its manifest describes it, which is to be repeated.
-struct Rerun {
-    manifest: Manifest,
-    capture: CaptureSettings,
-    experiment: Experiment,
-}
-
 /// A repeated run: the studio at its end, and the log of its states.
 struct Repeated {
     studio: Studio,
@@ -211,7 +168,7 @@ struct Frames {
     differences: Vec<Option<String>>,
 }
 
-impl Rerun {
+impl CapturedRun {
     /// Returns the studio at the start of the run, and a log of the studio's states.
     fn begin(&self) -> (Studio, StateLog) {
         let studio = self.capture.prepare_studio(self.experiment.studio());

@@ -14,7 +14,8 @@ const GROWING_RADIUS: f64 = 1.01;
 /// Findings on a lane from its energy and the spectral radius.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct EnergyFinding {
-    /// Change of kinetic and potential energy at the end of the run, without the energy that an input adds. The unit is the largest kinetic energy, or the largest loss if the loss is larger.
+    /// Change of kinetic and potential energy at the end of the run, without the energy that an input adds. The unit is
+    /// the largest kinetic energy, or the largest loss if the loss is larger.
     pub change: f64,
     /// Trend of the energy.
     pub trend: Trend,

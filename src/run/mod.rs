@@ -289,6 +289,7 @@ impl Run {
     pub(crate) fn restart(&mut self, kept: Option<&str>, set: impl FnOnce(&mut StartSettings)) {
         let before = self.next.clone();
         set(&mut self.next);
+        self.next.settle();
         let begun = Course::new(self.next.session(), self.next.is_as_opened());
         let course = replace(&mut self.course, begun);
         self.changes.undone.clear();

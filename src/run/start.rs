@@ -23,6 +23,9 @@ pub(crate) struct StartSettings {
     pub(crate) mode: Mode,
     /// Indices in `list` of a race's lanes.
     lanes: Vec<MenuIndex>,
+    /// The methods to which a person has switched lanes of the race, which keep their entries until the restart. Each is
+    /// with the lane's index.
+    given: Vec<(usize, LaneSpec)>,
     /// Index in `list` of the solo method, which also joins a race.
     pub(crate) entry: MenuIndex,
     pub(crate) tick_hz: TickRate,
@@ -44,6 +47,7 @@ impl StartSettings {
             mode: Mode::Solo,
             entry,
             tick_hz: scene.tick_hz,
+            given: Vec::new(),
             before_equal_cost: None,
             scene,
         }
@@ -118,7 +122,7 @@ impl StartSettings {
         let bodies = self.scene.bodies.iter().zip(&other.scene.bodies);
         self.scene.seconds == other.scene.seconds
             && bodies.clone().all(|(own, other)| own.values == other.values)
-            && self.list == other.list
+            && (&self.list, &self.given) == (&other.list, &other.given)
     }
 
     /// Sets the scene's length (s), if the length is in the allowed range. Returns whether the length changed.
@@ -156,13 +160,37 @@ impl StartSettings {
         let Some(Switch { index, spec, .. }) = done.switch else { return };
         self.list = menu.specs().to_vec();
         if race.mode() == Mode::Race
-            && let Some(lane) = self.lanes.get_mut(index)
-            && self.list[*lane] != spec
+            && let Some(&entry) = self.lanes.get(index)
         {
-            let known = self.list.iter().position(|listed| *listed == spec);
-            *lane = known.unwrap_or(self.list.len());
-            self.list.extend(known.is_none().then_some(spec));
+            self.given.retain(|(lane, _)| *lane != index);
+            self.given.extend((self.list[entry] != spec).then_some((index, spec)));
         }
+    }
+
+    /// Gives each lane the entry of the method that it was switched to, because a new run has a new menu.
+    pub(super) fn settle(&mut self) {
+        for (lane, spec) in std::mem::take(&mut self.given) {
+            let entry = self.entry_for(lane, spec);
+            if self.entry == self.lanes[lane] {
+                self.entry = entry;
+            }
+            self.lanes[lane] = entry;
+        }
+    }
+
+    /// Returns the index in the list at which a lane finds `spec`: an entry equal to it, or else one of the same method
+    /// that no other lane has, or else a new one.
+    fn entry_for(&mut self, lane: usize, spec: LaneSpec) -> MenuIndex {
+        let others = || self.lanes.iter().enumerate().filter(|(other, _)| *other != lane);
+        let is_free = |entry: &MenuIndex| others().all(|(_, other)| other != entry);
+        let own = |entry: &MenuIndex| self.list[*entry].method == spec.method && is_free(entry);
+        let equal = self.list.iter().position(|listed| *listed == spec);
+        let entry = equal.or_else(|| (0..self.list.len()).find(own)).unwrap_or(self.list.len());
+        match self.list.get_mut(entry) {
+            Some(listed) => *listed = spec,
+            None => self.list.push(spec),
+        }
+        entry
     }
 }
 

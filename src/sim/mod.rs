@@ -1,8 +1,8 @@
 //! The mathematics: a state, an equation of motion, and ways to step the state.
 //!
-//! This layer has no files, wall clocks or pixels. Threads only share loops, in `batch`, which changes no bit. Everything
-//! that is stepped is `f64` and uses only `+ - × ÷ √` and `libm`, so that the same inputs give the same bits on every
-//! platform, in every build profile.
+//! This layer has no files, wall clocks or pixels. Threads only share loops, in `batch`, which changes no bit.
+//! Everything that is stepped is `f64` and uses only `+ - × ÷ √` and `libm`, so that the same inputs give the same bits
+//! on every platform, in every build profile.
 
 #[cfg(feature = "batch")]
 pub mod batch;

@@ -139,8 +139,11 @@ mod tests {
 
     const NUMBERS: [&str; 9] = ["1", "2", "3", "4", "5", "6", "7", "8", "9"];
 
-    /// Places of the tags' words, and the methods of the threads from left to right with the places of their ends.
-    fn fan(studio: &Studio, size: [f32; 2]) -> (Vec<(String, f32, f32)>, Vec<(usize, f32)>) {
+    /// A tag's words, and where they stand.
+    type Tag = (String, f32, f32);
+
+    /// Returns the tags, and the methods of the threads from left to right with the places of their ends.
+    fn fan(studio: &Studio, size: [f32; 2]) -> (Vec<Tag>, Vec<(usize, f32)>) {
         let picture = compose(studio, size);
         let is_of_fan = |text: &str| NUMBERS.contains(&text) || text == EXACT_FROM_HERE;
         let labels = picture

@@ -88,8 +88,8 @@ impl Cell {
         self.moving_grip_at(studio, &[], at)
     }
 
-    /// The same while bodies move. `before` are the cells of earlier pictures, the newest first. A lane's handle that no
-    /// hand touches is larger, and counts where it was in those pictures and on its way between them.
+    /// The same while bodies move. `before` are the cells of earlier pictures, the newest first. A lane's handle that
+    /// no hand touches is larger, and counts where it was in those pictures and on its way between them.
     pub fn moving_grip_at(&self, studio: &Studio, before: &[&Cell], at: [f32; 2]) -> Option<Grip> {
         if !self.rect.contains(at) {
             return None;

@@ -6,7 +6,7 @@ use super::deck::Deck;
 use super::dispatch::{carry_out_on_run, carry_out_on_stage};
 use super::display::DriverRequest;
 use super::escaping::escape;
-use super::guiding::{close_guide, go_to_stop, go_to_stop_beside, look_at_goal, toggle_guide};
+use super::guiding::{go_to_stop, go_to_stop_beside, look_at_goal, toggle_guide};
 use super::joint::joint_code;
 use super::looping::{carry_out_in_loop_lab, change_loop_lab, open_loop_lab, refuse_in_loop_lab};
 use super::opening::described_spring;
@@ -158,13 +158,6 @@ impl Studio {
         }
         None
     }
-}
-
-/// Closes the guide, and a loop lab that shows the motion of the guide's stop. Returns whether the guide was open.
-pub(super) fn close_guide_and_lab(studio: &mut Studio) -> bool {
-    let is_closed = close_guide(&mut studio.deck, &mut studio.viewer);
-    studio.loops.take_if(|_| is_closed);
-    is_closed
 }
 
 /// Returns the request, or `None` if it would leave the driver nothing to copy.

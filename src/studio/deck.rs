@@ -211,7 +211,8 @@ impl Deck {
         self.running && self.held.is_none() && !self.tick_rate_is_held
     }
 
-    /// Whether the person holds the tick rate or another value of the run, according to the last [`ViewCommand::HoldTickRate`](super::ViewCommand).
+    /// Whether the person holds the tick rate or another value of the run, according to the last
+    /// [`ViewCommand::HoldTickRate`](super::ViewCommand).
     pub fn is_tick_rate_held(&self) -> bool {
         self.tick_rate_is_held
     }

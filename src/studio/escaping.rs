@@ -4,11 +4,10 @@ use std::mem::take;
 
 use super::Studio;
 use super::ahead::shows_futures;
-use super::apply::close_guide_and_lab;
 use super::command::{RunCommand, StageCommand};
 use super::dispatch::{carry_out_on_run, carry_out_on_stage};
 use super::display::DriverRequest;
-use super::looping::leave_loop_lab;
+use super::looping::{close_guide_and_lab, leave_loop_lab};
 use crate::run::race::Mode;
 
 /// Something visible over the run.

@@ -15,8 +15,8 @@ use crate::sim::bodies::{Parameter, Range, TakesEffect};
 /// The advice is included while it is shown.
 ///
 /// A verdict is of what follows the last change of the run. A lane is judged from the state that it had then, and any
-/// other method from the true one. Advice is on the scene from its start, or from where a person last placed or kicked a
-/// body, with a person's settings and the parameters that the script has set by the present tick.
+/// other method from the true one. Advice is on the scene from its start, or from where a person last placed or kicked
+/// a body. It includes a person's settings, and the parameters that the script has set by the present tick.
 pub fn analysis_request(deck: &Deck, viewer: &Viewer) -> AnalysisRequest {
     let flown = deck.race().entrants().iter().map(|lane| deck.entry(lane) + 1);
     let first = flown.max().unwrap_or_default().max(deck.offered());
@@ -198,7 +198,8 @@ mod tests {
 
     #[test]
     fn no_swing_wider_than_exact_by_a_tenth_has_a_green_sign_after_a_change() {
-        let changes: [(&str, fn(&mut Studio)); 4] = [
+        type Change = (&'static str, fn(&mut Studio));
+        let changes: [Change; 4] = [
             ("switch", |studio| {
                 studio.apply(StageCommand::Pick(1));
             }),

@@ -7,7 +7,7 @@ use super::command::{StageCommand, TICK_LADDER};
 use super::deck::Deck;
 use super::dispatch::carry_out_on_stage;
 use super::guide::Goal;
-use super::guiding::return_from_guide;
+use super::guiding::{close_guide, return_from_guide};
 use super::instrument::Instrument;
 use super::step::Step;
 use super::viewer::Viewer;
@@ -77,6 +77,13 @@ pub(super) fn open_loop_lab(studio: &mut Studio) {
 fn slowness_of(speed_percent: u32) -> u32 {
     let slower = SLOWNESS.into_iter().rev().find(|slowness| slowness * speed_percent <= 100);
     slower.filter(|_| speed_percent < 100).unwrap_or(SLOWNESS_AT_FIRST)
+}
+
+/// Closes the guide, and a loop lab that shows the motion of the guide's stop. Returns whether the guide was open.
+pub(super) fn close_guide_and_lab(studio: &mut Studio) -> bool {
+    let is_closed = close_guide(&mut studio.deck, &mut studio.viewer);
+    studio.loops.take_if(|_| is_closed);
+    is_closed
 }
 
 /// Leaves the loop lab. The run resumes or stays paused as before. If the guide was closed meanwhile, the run that the

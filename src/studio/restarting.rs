@@ -61,10 +61,11 @@ pub(super) fn restart(
 pub(super) fn restart_keeping_run(deck: &mut Deck, viewer: &mut Viewer) -> bool {
     let is_edited = !Arc::ptr_eq(deck.run.session().scene(), &deck.run.next().scene);
     let keeps = is_by_hand(&deck.run) || is_edited;
-    let (earlier, ending) = (deck.run_before.take(), EndingRun::of(deck));
+    let (earlier, ending) = (deck.run_before.take(), EndingRun::of(&deck.run, deck.selected()));
     restart(deck, viewer, keeps.then_some("the restart"), |_| ());
     if !is_edited {
-        deck.run_before = ending.and_then(|ending| ending.before(deck)).or(earlier);
+        deck.run_before =
+            ending.and_then(|ending| ending.before(&deck.run, deck.selected())).or(earlier);
     }
     keeps
 }

@@ -1,8 +1,8 @@
 //! The run before the last restart, which the plots keep beside the present run for comparison.
 
-use super::deck::Deck;
+use crate::run::Run;
 use crate::run::past::History;
-use crate::run::race::Author;
+use crate::run::race::{Author, Entrant};
 use crate::scene::{Action, LaneSpec};
 use crate::sim::TickRate;
 
@@ -26,11 +26,11 @@ pub(super) struct EndingRun {
 
 /// The tick rate and the method with which a run begins, with all changes before its first tick, and the time of the
 /// first later change.
-fn beginning(deck: &Deck) -> ((TickRate, LaneSpec), f64) {
-    let (start, selected) = (deck.run.start(), deck.selected());
+fn beginning(run: &Run, selected: &Entrant) -> ((TickRate, LaneSpec), f64) {
+    let start = run.start();
     let spec = start.entrant(selected.id).map_or(selected.spec, |entrant| entrant.spec);
     let mut began = (start.tick_hz(), spec);
-    for row in deck.run.session().journal().rows() {
+    for row in run.session().journal().rows() {
         let is_by_hand = row.author == Author::Person;
         match &row.action {
             Action::TickHz(tick_hz) if is_by_hand && row.tick == 0 => began.0 = *tick_hz,
@@ -44,15 +44,15 @@ fn beginning(deck: &Deck) -> ((TickRate, LaneSpec), f64) {
 
 impl EndingRun {
     /// The run that a restart is about to replace, if it has made a tick.
-    pub(super) fn of(deck: &Deck) -> Option<Self> {
-        let (began, until_s) = beginning(deck);
-        let histories = deck.past().histories(deck.selected().id).to_vec();
-        (deck.run.end() > 0).then_some(Self { histories, until_s, began })
+    pub(super) fn of(run: &Run, selected: &Entrant) -> Option<Self> {
+        let (began, until_s) = beginning(run, selected);
+        let histories = run.past().histories(selected.id).to_vec();
+        (run.end() > 0).then_some(Self { histories, until_s, began })
     }
 
     /// The run for comparison with the one that has begun now, if the two differ.
-    pub(super) fn before(self, deck: &Deck) -> Option<Box<RunBefore>> {
-        let ((tick_hz, spec), now) = (self.began, beginning(deck).0);
+    pub(super) fn before(self, run: &Run, selected: &Entrant) -> Option<Box<RunBefore>> {
+        let ((tick_hz, spec), now) = (self.began, beginning(run, selected).0);
         let name = match now {
             (now_hz, _) if now_hz != tick_hz => format!("{tick_hz:.3} Hz"),
             (_, now_spec) if now_spec != spec => spec.method.name.to_owned(),

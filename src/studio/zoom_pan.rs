@@ -51,7 +51,7 @@ impl ZoomPan {
     /// Pans no further than necessary to keep this place of the fitted frame in view. A place outside the fitted frame
     /// is not kept.
     pub fn keeping(self, place: [f64; 2]) -> Self {
-        if self == Self::default() || place.iter().any(|part| !(part.abs() <= 0.5)) {
+        if self == Self::default() || place.iter().any(|part| part.is_nan() || part.abs() > 0.5) {
             return self;
         }
         let centre = [0, 1].map(|i| {

@@ -1,7 +1,6 @@
 //! Work on separate threads, because one step of it can take longer than a frame: the analysis, the loops of the loop
 //! lab, clouds, and the growing recording.
 
-use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::mpsc::{Receiver, Sender, TryRecvError, channel};
@@ -10,6 +9,7 @@ use std::thread;
 use winit::event_loop::EventLoopProxy;
 
 use super::Event;
+use super::caught::caught;
 use crate::studio::{CurrentRequest, Work};
 
 /// A handle to a worker's thread, which ends when this is dropped.
@@ -48,15 +48,6 @@ where
     }
 }
 
-/// Runs `work`. If it panics, returns a sentence for the person in front of the window.
-pub(super) fn caught<T>(work: impl FnOnce() -> T) -> Result<T, String> {
-    catch_unwind(AssertUnwindSafe(work)).map_err(|panic| {
-        let text = panic.downcast_ref::<String>().map(String::as_str);
-        let text = text.or_else(|| panic.downcast_ref::<&str>().copied()).unwrap_or("no reason");
-        format!("this met a bug of regatta, please report it: {text}")
-    })
-}
-
 fn run<W: Work<Found: Into<Event>>>(
     mut worker: W,
     requests: &Receiver<W::Request>,
@@ -86,19 +77,5 @@ fn run<W: Work<Found: Into<Event>>>(
             received += 1;
         }
         worker.set_request(next);
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::caught;
-
-    #[test]
-    fn a_panic_of_work_becomes_a_sentence() {
-        assert_eq!(caught(|| 7), Ok(7));
-        for fail in [|| panic!("index {}", 9), || panic!("index 9")] {
-            let sentence = caught::<()>(fail).unwrap_err();
-            assert_eq!(sentence, "this met a bug of regatta, please report it: index 9");
-        }
     }
 }

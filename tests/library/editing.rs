@@ -42,8 +42,8 @@ fn a_selected_lane_stays_selected_when_its_method_changes() {
     studio.tick();
     let spec = LaneSpec::plain(method("pefrl").unwrap());
     studio.apply(RunCommand::Act(Action::Lane { lane: LaneId(1), spec }));
-    assert_eq!((studio.selected().id, studio.entries()[studio.active()]), (LaneId(1), spec));
-    assert!(studio.title().contains("race: PEFRL"), "{}", studio.title());
+    assert_eq!((studio.selected().id, studio.selected().spec), (LaneId(1), spec));
+    assert!(studio.title().contains("race: Explicit Euler → PEFRL"), "{}", studio.title());
     studio.apply(RunCommand::Seek(0));
     studio.apply(RunCommand::Seek(1));
     studio.apply(StageCommand::ToggleRace);

@@ -5,7 +5,9 @@ use regatta::loops::loop_lab::LoopCommand;
 use regatta::run::race::{ESCAPE, Mode};
 use regatta::scene::{Action, SCENES, Scene};
 use regatta::stage::{FAR, Picture, Shape, Whose, compose};
-use regatta::studio::{Command, RunCommand, StageCommand, Studio, ViewCommand, run_loops};
+use regatta::studio::{
+    Command, RunCommand, StageCommand, Studio, ViewCommand, digit_of, run_loops,
+};
 
 use crate::scenes::edited;
 
@@ -357,7 +359,8 @@ fn overlaid_loops_are_named_below_and_numbered_above_their_bodies() {
     assert_eq!(exact(&below), count * exact(&over), "one exact body");
     for &place in loops.on_stage() {
         let starts = |words: &str| over.labels.iter().any(|label| label.text.starts_with(words));
-        assert!(starts(&format!("{} {} · ", place + 1, loops.lanes()[place].card().name)));
-        assert!(over.labels.iter().any(|label| label.text == (place + 1).to_string()));
+        let digit = digit_of(place);
+        assert!(starts(&format!("{digit} {} · ", loops.lanes()[place].card().name)));
+        assert!(over.labels.iter().any(|label| label.text == digit.to_string()));
     }
 }

@@ -558,7 +558,6 @@ fn a_link_to_a_solo_run_keeps_its_menu_of_methods() {
     assert_eq!(opened.race().state_hash(), studio.race().state_hash());
     assert!(!scene.checks.is_empty());
     assert_eq!(wrong_lanes(&scene), []);
-
     // Of two lanes with one method, the link of the plain one needs no other lane.
     let plain = LaneSpec::plain(method("rk4").unwrap());
     let lanes = vec![LaneSpec { substeps: 4, ..plain }, plain];
@@ -574,32 +573,28 @@ fn a_link_to_a_solo_run_keeps_its_menu_of_methods() {
 #[test]
 fn a_recording_keeps_the_digit_keys_lanes_and_verdict_of_its_run() {
     for (scene, entry) in [("spring", 1), ("harbour", 1), ("harbour", 11), ("orbit", 3)] {
-        let mut studio = Studio::new(built_in(scene));
-        let ids = |studio: &Studio| -> Vec<&str> {
-            let offered = studio.entries()[..studio.deck.offered()].iter();
-            offered.map(|spec| spec.method.id).collect()
-        };
+        // A verdict is over the length of its scene, and the recording has that of the run.
+        let length = |scene: &mut Scene| scene.seconds = scene.tick_hz.seconds(180);
+        let mut studio = Studio::new(edited(&built_in(scene), length));
+        let ids = |studio: &Studio| studio.entries()[..studio.deck.offered()].to_vec();
         (0..90).for_each(|_| studio.tick());
         studio.apply(StageCommand::Pick(entry));
         (0..90).for_each(|_| studio.tick());
-        let text = studio.deck.recording().unwrap();
-        let mut recorded = Studio::new(Scene::parse("recording.toml", &text).unwrap());
+        let mut recorded = Studio::new(parsed(&studio.deck.recording().unwrap()));
         (0..180).for_each(|_| recorded.tick());
         assert_eq!(recorded.race().state_hash(), studio.race().state_hash(), "{scene}");
         assert_eq!((ids(&recorded), recorded.active()), (ids(&studio), entry), "{scene}");
-        for studio in [&mut recorded, &mut studio] {
+        let verdict = |studio: &mut Studio, entry: usize| {
             studio.analyse();
-        }
-        let verdict =
-            |studio: &Studio| studio.viewer.verdict(entry).cloned().expect("it is judged");
-        assert_eq!(verdict(&recorded), verdict(&studio), "{scene}");
-        assert_eq!(verdict(&recorded).starts_at_s, 90.0 / 60.0, "from the switch on");
+            studio.viewer.verdict(entry).cloned().expect("it is judged")
+        };
+        let judged = verdict(&mut recorded, entry);
+        assert_eq!(judged, verdict(&mut studio, entry), "{scene}");
+        assert_eq!(judged.starts_at_s, studio.race().tick_hz().seconds(90), "from the switch on");
         recorded.apply(StageCommand::Pick(0));
         assert_eq!(ids(&recorded), ids(&studio), "no digit vanishes");
         recorded.apply(StageCommand::ToggleRace);
-        let (raced, own) = (recorded.race().entrants().len(), studio.scene().lanes.len());
-        assert_eq!(raced, own, "{scene}: as in the run that was recorded");
-        recorded.analyse();
-        assert_eq!(recorded.viewer.verdict(0).map(|verdict| verdict.starts_at_s), Some(0.0));
+        assert_eq!(recorded.race().entrants().len(), studio.scene().lanes.len(), "{scene}");
+        assert_eq!(verdict(&mut recorded, 0).starts_at_s, 0.0);
     }
 }

@@ -343,8 +343,7 @@ fn a_body_that_blew_up_resumes_from_the_truth_and_the_others_continue() {
     assert_eq!(jump.map(|sample| sample.t), Some(race.t()));
     let mut flown: Vec<usize> = history.samples().map(|sample| sample.entry).collect();
     flown.dedup();
-    let listed = seen.menu().specs().iter().position(|spec| *spec == rk4());
-    assert_eq!(flown, [0, listed.unwrap()]);
+    assert_eq!(flown, [0], "a lane of a race keeps its colour");
     run(&mut race, 1000);
     assert_eq!(race.entrants()[0].lane.halted(), None);
 }

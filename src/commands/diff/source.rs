@@ -7,6 +7,7 @@ use std::thread;
 
 use csv::ByteRecord;
 
+use crate::commands::captured::{CapturedRun, read_run};
 use crate::commands::error::Error;
 use crate::commands::manifest::Mark;
 use crate::commands::{scene_file, verify};
@@ -178,7 +179,7 @@ fn of_scene(path: &Path) -> Result<Made, Error> {
 
 /// Returns the run whose states are in the manifest of the capture in `dir`.
 fn of_capture(dir: &Path) -> Result<Made, Error> {
-    let (manifest, experiment) = verify::manifest_of(dir)?;
+    let CapturedRun { manifest, experiment, .. } = read_run(dir)?;
     let studio = experiment.studio();
     let tick_s = manifest.settings.tick_hz.step_s();
     let mut marks = manifest.marks.into_iter();

@@ -9,8 +9,8 @@ use super::physics::{PhysicsChange, first_change};
 #[cfg(feature = "view")]
 use super::pixels;
 use super::report::{DIRECTORY, Report, print_line};
-use super::{Frames, Repeated, Rerun, VerifyArgs};
-use crate::commands::argument::brief;
+use super::{Frames, Repeated, VerifyArgs};
+use crate::commands::captured::{CapturedRun, read_run, unjudged};
 #[cfg(feature = "view")]
 use crate::commands::clip::record;
 use crate::commands::error::Error;
@@ -20,28 +20,11 @@ use crate::commands::error::PlaceOf;
 use crate::commands::frame_folder::{FolderPolicy, FrameFolder};
 use crate::commands::frame_names::{frame_number, in_the_way, is_pending};
 use crate::commands::interrupt::watch_for_interrupt;
-use crate::commands::manifest::{self, FILE_NAME, Manifest, SCHEMA};
+use crate::commands::manifest::{FILE_NAME, Manifest};
 use crate::commands::output::DirectoryLock;
+use crate::commands::scene_file;
 use crate::commands::terminal::print_status;
-use crate::commands::{scene_file, settings};
-use crate::regular_file::{self, Unreadable};
 use crate::sim::number::counted;
-
-/// Returns a function that makes the error for a capture in `dir` that cannot be judged, from the reason.
-fn unjudged(dir: &Path) -> impl Fn(String) -> Error {
-    let manifest = dir.join(FILE_NAME);
-    move |reason| Error::mistake(format!("cannot judge {}: {reason}", brief(&manifest)))
-}
-
-/// Reads the run of the capture in `dir` from its manifest.
-pub(super) fn read_run(dir: &Path) -> Result<Rerun, Error> {
-    let read = || {
-        let manifest = read(&dir.join(FILE_NAME))?;
-        let (experiment, capture) = settings::from_manifest(&manifest.settings)?;
-        Ok(Rerun { manifest, capture, experiment })
-    };
-    read().map_err(unjudged(dir))
-}
 
 /// Judges the capture that `args` names.
 pub(super) fn judge(args: &VerifyArgs) -> Result<Report, Error> {
@@ -102,7 +85,7 @@ pub(super) fn judge(args: &VerifyArgs) -> Result<Report, Error> {
     Ok(report)
 }
 
-fn add_physics(report: &mut Report, rerun: &Rerun, repeated: Repeated) -> Result<(), Error> {
+fn add_physics(report: &mut Report, rerun: &CapturedRun, repeated: Repeated) -> Result<(), Error> {
     let Repeated { studio, state_log, moment } = repeated;
     let Some(change) = first_change(&rerun.manifest, &studio, state_log, moment) else {
         let lanes = counted(studio.race().entrants().len(), "lane");
@@ -126,7 +109,11 @@ fn add_physics(report: &mut Report, rerun: &Rerun, repeated: Repeated) -> Result
     Ok(())
 }
 
-fn add_pixels(report: &mut Report, rerun: &Rerun, frames: Option<Frames>) -> Result<(), Error> {
+fn add_pixels(
+    report: &mut Report,
+    rerun: &CapturedRun,
+    frames: Option<Frames>,
+) -> Result<(), Error> {
     let Some(Frames { are_exact, differences }) = frames else {
         report.field("pixels", Value::Null);
         return Ok(());
@@ -177,7 +164,7 @@ pub(super) fn bless(dir: &Path) -> Result<(), Error> {
         read_run(dir)?;
     }
     let folder = FrameFolder::inspect(dir, FolderPolicy::Bless, PlaceOf::Blessed)?;
-    let Rerun { experiment, capture, .. } = read_run(dir)?;
+    let CapturedRun { experiment, capture, .. } = read_run(dir)?;
     let studio = experiment.studio();
     let drawn = capture
         .renderer()
@@ -205,30 +192,4 @@ fn lock(dir: &Path) -> Result<Option<DirectoryLock>, String> {
         return Err(format!("a --bless was interrupted while it replaced the frames; {remedy}"));
     }
     Ok(Some(lock))
-}
-
-/// Reads the manifest at `path`.
-///
-/// # Errors
-/// The reason why the manifest cannot be used: it is missing, incomplete, altered or of another schema.
-fn read(path: &Path) -> Result<Manifest, String> {
-    let bytes = regular_file::read(path, manifest::MAX_BYTES).map_err(|error| match error {
-        Unreadable::System(error) => format!("{error}; `regatta capture` writes it"),
-        error => error.to_string(),
-    })?;
-    let value: Value = serde_json::from_slice(&bytes)
-        .map_err(|error| format!("it is not JSON: {error}; capture again"))?;
-    match value["schema"].as_u64() {
-        Some(schema) if schema == u64::from(SCHEMA) => {}
-        Some(schema) => {
-            return Err(format!(
-                "it is of schema {schema}, and this program reads {SCHEMA}; capture again"
-            ));
-        }
-        None => return Err("it does not name its schema; capture again".into()),
-    }
-    let manifest: Manifest = serde_json::from_slice(&bytes)
-        .map_err(|error| format!("it does not follow schema {SCHEMA}: {error}; capture again"))?;
-    settings::check(&manifest)?;
-    Ok(manifest)
 }

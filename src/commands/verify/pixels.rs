@@ -4,9 +4,10 @@ use std::fmt::{self, Display, Formatter};
 use std::fs;
 
 use super::physics::other_moment;
-use super::{Frames, Repeated, Rerun, VerifyArgs};
+use super::{Frames, Repeated, VerifyArgs};
 use crate::atomic_file::IfExists;
 use crate::commands::argument::brief;
+use crate::commands::captured::CapturedRun;
 use crate::commands::drawing::{adapter, interrupted_after};
 use crate::commands::error::{Error, PlaceOf};
 use crate::commands::frame_names::{frames_claimed, is_marked, not_ours};
@@ -75,8 +76,8 @@ impl Display for Limits {
 }
 
 /// Draws every frame of the capture again, and compares it with its file. Also returns the repeated run.
-pub(super) fn judge(args: &VerifyArgs, rerun: &Rerun) -> Result<(Frames, Repeated), Error> {
-    let Rerun { manifest, capture, .. } = rerun;
+pub(super) fn judge(args: &VerifyArgs, rerun: &CapturedRun) -> Result<(Frames, Repeated), Error> {
+    let CapturedRun { manifest, capture, .. } = rerun;
     check_differences(args, manifest)?;
     let cannot = |error: Error| error.or_mistake().within("the pixels cannot be judged");
     let mut renderer = capture.renderer().map_err(cannot)?;

@@ -136,7 +136,7 @@ fn advice_on_each_built_in_scene_takes_the_recorded_work() {
 
 /// An undamped swing grows under explicit Euler at any step, and a damped one from hω = 2ζ on.
 #[test]
-fn of_forty_springs_none_is_advised_explicit_euler_or_a_smaller_reserve_of_equal_cost() {
+fn forty_springs_get_the_largest_reserve_of_equal_cost_and_no_explicit_euler() {
     let mut compared = 0;
     for frequency_hz in [0.5, 0.8, 1.0, 1.5, 2.0, 3.0, 4.0, 5.0] {
         for damping_ratio in [0.0, 0.1, 0.3, 0.6, 1.0] {

@@ -41,6 +41,42 @@ const H: usize = 2;
 const TARGET: usize = 3;
 const BUILT_IN: [&str; 4] = ["x", "v", "h", "target"];
 
+/// Other names of the length of a step.
+const STEP_NAMES: [&str; 13] = [
+    "dt",
+    "delta",
+    "deltaTime",
+    "delta_time",
+    "delta_seconds",
+    "DeltaTime",
+    "fixedDeltaTime",
+    "deltaSeconds",
+    "DeltaSeconds",
+    "delta_secs",
+    "delta_secs_f64",
+    "getDelta",
+    "elapsed",
+];
+
+/// Names that games use for `x`, `v` and `target`, valid unless the text uses the original name.
+const OTHER_NAMES: [(usize, &[&str]); 3] = [
+    (X, &["pos", "position", "value", "current"]),
+    (V, &["vel", "velocity", "speed"]),
+    (
+        TARGET,
+        &[
+            "goal",
+            "desired",
+            "targetPos",
+            "target_pos",
+            "targetPosition",
+            "target_position",
+            "targetX",
+            "target_x",
+        ],
+    ),
+];
+
 /// A line, with its names as indices among the inputs.
 #[derive(Debug)]
 enum Line {

@@ -95,6 +95,11 @@ pub(super) fn tokens(text: &str, is_step: bool) -> Parsed<Vec<(Token, Range<usiz
     Ok(tokens)
 }
 
+/// Whether a name can contain this byte.
+pub(super) fn is_name_part(byte: u8) -> bool {
+    byte.is_ascii_alphanumeric() || byte == b'_'
+}
+
 /// Whether this can be the first character of a name.
 pub(super) fn is_name_start(character: char) -> bool {
     character.is_ascii_alphabetic() || character == '_'

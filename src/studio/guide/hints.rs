@@ -258,9 +258,7 @@ mod tests {
         assert!(studio.deck.lost_at().is_some());
         studio.apply(StageCommand::Restart);
         (0..60).for_each(|_| studio.tick());
-        let mut fresh = Hints::default();
-        fresh.scene = true;
-        studio.viewer.hints = fresh;
+        studio.viewer.hints = Hints { scene: true, ..Hints::default() };
         let hint = studio.hint().unwrap();
         assert!(hint.contains("`]`") && !hint.contains("`[`"), "{hint}");
     }

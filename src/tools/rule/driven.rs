@@ -2,7 +2,7 @@
 
 use super::{MAX_WATCHED, Rule};
 
-/// A jump starts with the speed that gravity takes in this many frames of the author.
+/// Number of frames of the author in which gravity stops the speed of a jump.
 const FRAMES_UP: f64 = 25.0;
 /// A speed that changes by less than this fraction in a frame is the top speed.
 const STEADY: f64 = 1e-13;
@@ -66,7 +66,7 @@ impl Rule {
         for frame in 1..MAX_WATCHED as u32 {
             self.text.step(&mut registers, self.step_length(fps), 0.0);
             let place = self.text.value(&registers, 0) * start.signum();
-            if !(place > 0.0) {
+            if place.is_nan() || place <= 0.0 {
                 return (height > 0.0).then_some([height, f64::from(frame) / fps]);
             }
             height = height.max(place);

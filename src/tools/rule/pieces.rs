@@ -104,7 +104,7 @@ impl Rule {
             .zip(labels)
             .map(|((_, modes), condition)| {
                 let modes = modes.clone();
-                let mut rule = Rule::with_state(Arc::clone(&text), self.fps, self.state.clone());
+                let mut rule = Rule::with_state(Arc::clone(text), self.fps, self.state.clone());
                 (rule.units, rule.within, rule.is_linear) = (self.units, self.within, true);
                 rule.modes.clone_from(&modes[0]);
                 Piece { condition, rule: rule.settled(), modes }

@@ -1,5 +1,5 @@
-//! Advice on the method for the scene at its tick rate: one recommendation, its source code, and a table of the findings
-//! on every method.
+//! Advice on the method for the scene at its tick rate: one recommendation, its source code, and a table of the
+//! findings on every method.
 
 use std::sync::Arc;
 

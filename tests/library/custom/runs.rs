@@ -2,7 +2,7 @@
 
 use glam::DVec2;
 use regatta::look::Look;
-use regatta::measure::{Adviser, CRITERIA, Report};
+use regatta::measure::{Adviser, CRITERIA, Criterion, Report};
 use regatta::prelude::{Options, Scene, Session, State};
 use regatta::run::RecordingError;
 use regatta::run::race::{Lane, Mode};
@@ -42,7 +42,8 @@ fn a_report_has_the_findings_of_the_adviser() {
         let least = costs.map(|met| met.evaluations_per_s).fold(f64::INFINITY, f64::min);
         assert_eq!(best.with.evaluations_per_s, least);
         let line = format!("body at 30 Hz: {}: {best}\n", criterion.id());
-        assert!(report.to_string().contains(&line), "{report}");
+        let is_answer = criterion == Criterion::LooksRight;
+        assert_eq!(report.to_string().contains(&line), is_answer, "{report}");
     }
 }
 

@@ -2,10 +2,9 @@
 
 use std::ops::Range;
 
-use super::plain::{is_name_part, lower_name};
-use super::reader::{OTHER_NAMES, STEP_NAMES};
-use super::{BUILT_IN, TARGET, V, X};
+use super::{BUILT_IN, OTHER_NAMES, STEP_NAMES, TARGET, V, X};
 use crate::sim::law::function::Function;
+use crate::sim::law::token::is_name_part;
 
 /// Names before a function or a number that are no value.
 const NAMESPACES: [&str; 9] = ["math", "std", "f32", "f64", "glm", "np", "numpy", "this", "self"];
@@ -111,6 +110,15 @@ fn reduce_path(text: &mut [u8], parts: &[Range<usize>]) -> Option<Component> {
         lower_name(&mut text[parts[kept[0]].start..]);
     }
     component
+}
+
+/// Lower-cases the name at the start to the spelling of names here, for example `Lerp` to `lerp`, and `PI` to `pi`.
+fn lower_name(plain: &mut [u8]) {
+    let length = plain.iter().take_while(|byte| is_name_part(**byte)).count();
+    let name = &mut plain[..length];
+    let is_shouted = name.iter().all(|byte| !byte.is_ascii_lowercase());
+    let count = if is_shouted { length } else { length.min(1) };
+    name[..count].make_ascii_lowercase();
 }
 
 /// Returns the index of the name that is a number of a step, and the letter of its component.

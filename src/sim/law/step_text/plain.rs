@@ -2,6 +2,7 @@
 //! `Mathf.Exp`.
 
 use super::paths::{Component, reduce};
+use crate::sim::law::token::is_name_part;
 
 /// Beginnings of lines of `assets/methods` that describe a method for people.
 const HEADINGS: [&str; 6] =
@@ -12,11 +13,6 @@ const MEMORY: &str = "memory";
 
 /// Suffixes of numbers in other languages.
 const SUFFIXES: [&str; 8] = ["_f64", "_f32", "f64", "f32", "f", "F", "d", "D"];
-
-/// Whether a name can contain this byte.
-pub(super) fn is_name_part(byte: u8) -> bool {
-    byte.is_ascii_alphanumeric() || byte == b'_'
-}
 
 /// Returns the text with blanks in place of the parts that have no meaning here, so that all other bytes keep their
 /// positions. Also returns the components of vectors.
@@ -89,15 +85,6 @@ fn number_length(rest: &[u8]) -> (usize, usize) {
     };
     let suffix = SUFFIXES.iter().find(ends).filter(|_| rest[0] != b'.' || length > 1);
     (length.max(1), suffix.map_or(0, |suffix| suffix.len()))
-}
-
-/// Lower-cases the name at the start to the spelling of names here, for example `Lerp` to `lerp`, and `PI` to `pi`.
-pub(super) fn lower_name(plain: &mut [u8]) {
-    let length = plain.iter().take_while(|byte| is_name_part(**byte)).count();
-    let name = &mut plain[..length];
-    let is_shouted = name.iter().all(|byte| !byte.is_ascii_lowercase());
-    let count = if is_shouted { length } else { length.min(1) };
-    name[..count].make_ascii_lowercase();
 }
 
 #[cfg(test)]

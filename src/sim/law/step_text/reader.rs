@@ -3,14 +3,16 @@
 use std::ops::Range;
 
 use super::paths::{SMOOTH_DAMP, damped_velocity};
-use super::plain::is_name_part;
 use super::statements::Statement;
-use super::{BUILT_IN, Carried, H, Line, StepCall, StepText, TARGET, V, X};
+use super::{
+    BUILT_IN, Carried, H, Line, OTHER_NAMES, STEP_NAMES, StepCall, StepText, TARGET, V, X,
+};
 use crate::sim::law::expression::{Expression, Node, Scope, parse, parse_condition};
 use crate::sim::law::fault::{ExpressionFault, Parsed, Part, Remedy, fault, quoted};
 use crate::sim::law::function::Function;
 use crate::sim::law::op::{OPERATOR_WORDS, Op};
 use crate::sim::law::tape::{MAX_OPERATIONS, MAX_SWITCHES, Tape};
+use crate::sim::law::token::is_name_part;
 
 /// The maximum number of names of a text. It is so small that the bits of one word can represent a set of names.
 const MAX_STEP_NAMES: usize = 64;
@@ -20,42 +22,6 @@ const MAX_BLOCKS: usize = 32;
 
 /// The maximum number of calls of the acceleration in a step.
 const MAX_CALLS: usize = 64;
-
-/// Other names of the length of a step.
-pub(super) const STEP_NAMES: [&str; 13] = [
-    "dt",
-    "delta",
-    "deltaTime",
-    "delta_time",
-    "delta_seconds",
-    "DeltaTime",
-    "fixedDeltaTime",
-    "deltaSeconds",
-    "DeltaSeconds",
-    "delta_secs",
-    "delta_secs_f64",
-    "getDelta",
-    "elapsed",
-];
-
-/// Names that games use for `x`, `v` and `target`, valid unless the text uses the original name.
-pub(super) const OTHER_NAMES: [(usize, &[&str]); 3] = [
-    (X, &["pos", "position", "value", "current"]),
-    (V, &["vel", "velocity", "speed"]),
-    (
-        TARGET,
-        &[
-            "goal",
-            "desired",
-            "targetPos",
-            "target_pos",
-            "targetPosition",
-            "target_position",
-            "targetX",
-            "target_x",
-        ],
-    ),
-];
 
 /// Names for the call of the acceleration.
 const ACCELERATION: [&str; 3] = ["a", "accel", "acceleration"];

@@ -2,9 +2,8 @@
 
 use std::ops::Range;
 
-use super::plain::is_name_part;
 use crate::sim::law::fault::{Parsed, fault, quoted};
-use crate::sim::law::token::is_name_start;
+use crate::sim::law::token::{is_name_part, is_name_start};
 
 /// A statement with the byte ranges of its parts.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -1,0 +1,164 @@
+//! The options that every run has in common.
+
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+
+use super::error::Error;
+use super::experiment::{Experiment, PathOrName, scene_names};
+use super::output::Input;
+use super::own_method::METHOD_OR_FILE;
+use super::scene_file;
+use super::spring::SpringArgs;
+use super::tick_rate::TickRateArgs;
+use crate::run::race::{Mode, lanes_that_race};
+use crate::scene::{LaneSpec, SCENES, Scene, SceneGroup};
+use crate::sim::integrators::Method;
+use crate::studio::lineup;
+
+/// The options that choose a scene, its methods and its tick rate.
+#[derive(Clone, Debug, Args)]
+pub(super) struct ExperimentArgs {
+    /// A scene or the file of one [default: harbour]
+    #[arg(long, value_name = "NAME|FILE")]
+    #[arg(value_parser = PathOrName(scene_names), hide_possible_values = true)]
+    #[arg(conflicts_with = "spring", long_help = scene_help())]
+    scene: Option<PathBuf>,
+
+    #[command(flatten)]
+    spring: SpringArgs,
+
+    /// A method (`regatta list methods`), or several
+    ///
+    /// Give the option again for each, to race them. A file that ends in .step is a method of your own: `regatta help
+    /// step`.
+    #[arg(long = "method", value_name = "ID|FILE", value_parser = METHOD_OR_FILE)]
+    #[arg(hide_possible_values = true)]
+    methods: Vec<&'static Method>,
+
+    #[command(flatten)]
+    tick_rate: TickRateArgs,
+}
+
+impl ExperimentArgs {
+    /// Reads the scene and applies the other options. The mode is `asked`, unless the methods or the scene decide it.
+    pub(super) fn load(&self, asked: Mode) -> Result<Experiment, Error> {
+        let (scene, text) = match self.spring.load()? {
+            Some((scene, text)) => (self.applied_to(scene)?, text),
+            None => self.read(self.scene())?,
+        };
+        let (mode, selected) = lineup(&scene, &self.methods, asked);
+        Ok(Experiment { scene, text, selected, mode, loop_trace: None })
+    }
+
+    /// Reads a scene. The other options are applied only if `--scene` names the same scene.
+    pub(super) fn read(&self, path: &Path) -> Result<(Scene, String), Error> {
+        let (mut scene, text) = scene_file::load(path)?;
+        if path == self.scene() && !self.spring.is_given() {
+            scene = self.applied_to(scene)?;
+        }
+        scene.lanes = lanes_that_race(&scene);
+        scene.equal_cost = false;
+        Ok((scene, text))
+    }
+
+    /// Applies the tick rate and the methods to a scene.
+    fn applied_to(&self, scene: Scene) -> Result<Scene, Error> {
+        let tick_hz = self.tick_rate.tick_rate().unwrap_or(scene.tick_hz);
+        let scene = scene.at_tick_hz(tick_hz);
+        self.methods.iter().try_for_each(|method| scene_file::check_method(&scene, method))?;
+        Ok(scene.with_methods(&self.methods))
+    }
+
+    /// Returns the `--scene` argument, which is a name or a path. Without the argument, returns the name of the first
+    /// built-in scene.
+    pub(super) fn scene(&self) -> &Path {
+        self.scene.as_deref().unwrap_or(Path::new(SCENES[0].name))
+    }
+
+    /// Returns the scene file that the command reads, if any.
+    pub(super) fn input(&self) -> Option<Input<'_>> {
+        scene_file::input(self.scene()).filter(|_| !self.is_a_spring())
+    }
+
+    /// Returns the same options with `scene`. If the options already choose a scene, methods or a tick rate, they stay
+    /// unchanged.
+    pub(super) fn or_scene(&self, scene: &Path) -> Self {
+        let is_chosen = self.names_a_scene()
+            || !self.methods.is_empty()
+            || self.tick_rate.tick_rate().is_some();
+        let scene = if is_chosen { self.scene.clone() } else { Some(scene.to_owned()) };
+        Self { scene, ..self.clone() }
+    }
+
+    /// Whether the options name a scene or a spring.
+    pub(super) fn names_a_scene(&self) -> bool {
+        self.scene.is_some() || self.is_a_spring()
+    }
+
+    /// Whether a spring replaces the scene.
+    pub(super) fn is_a_spring(&self) -> bool {
+        self.spring.is_given()
+    }
+
+    /// Returns the lanes of the methods that the options name, set up as in `scene`.
+    pub(super) fn lanes_named(&self, scene: &Scene) -> Vec<LaneSpec> {
+        scene.lanes_of(&self.methods)
+    }
+
+    pub(super) fn names_no_method(&self) -> bool {
+        self.methods.is_empty()
+    }
+}
+
+/// Returns the long help of `--scene`: the scenes to start with, and the command that lists the others.
+fn scene_help() -> String {
+    let first = SCENES.iter().filter(|scene| scene.group == SceneGroup::StartHere);
+    let names: Vec<&str> = first.map(|scene| scene.name).collect();
+    format!(
+        "A scene or the file of one [default: {}]\n\nStart with {}; `regatta list scenes` has all. Anything else is read as a \
+         file or a link.",
+        names[0],
+        names.join(", ")
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::sim::integrators::METHODS;
+    use crate::studio::MANY_LANES;
+
+    #[derive(clap::Parser)]
+    struct Line {
+        #[command(flatten)]
+        experiment: ExperimentArgs,
+    }
+
+    #[test]
+    fn a_race_of_many_methods_selects_the_best_and_a_race_of_few_the_first_named() {
+        let ids: Vec<&str> = METHODS.iter().map(|method| method.id).take(MANY_LANES).collect();
+        for (count, is_best) in [(MANY_LANES, true), (MANY_LANES - 1, false)] {
+            let named = ids[..count].iter().flat_map(|id| ["--method", id]);
+            let words = ["", "--scene", "spring"].into_iter().chain(named);
+            let line = <Line as clap::Parser>::parse_from(words);
+            let mut studio = line.experiment.load(Mode::Solo).unwrap().studio();
+            assert_eq!(studio.entries()[studio.active()].method.id, ids[0]);
+            studio.analyse();
+            let outcome = |entry: usize| studio.viewer.verdict(entry).unwrap().outcome();
+            let best = (0..count).map(outcome).min().unwrap();
+            assert_ne!(outcome(0), best);
+            assert_eq!(outcome(studio.active()) == best, is_best, "{count}");
+        }
+    }
+
+    #[test]
+    fn a_scenes_race_selects_the_lane_with_the_best_verdict() {
+        let line = <Line as clap::Parser>::parse_from(["", "--scene", "spring"]);
+        let mut studio = line.experiment.load(Mode::Race).unwrap().studio();
+        studio.analyse();
+        let outcome = |entry: usize| studio.viewer.verdict(entry).unwrap().outcome();
+        let best = (0..studio.race().entrants().len()).map(outcome).min().unwrap();
+        assert!(outcome(studio.active()) == best && outcome(0) != best);
+    }
+}
