@@ -11,11 +11,12 @@ use super::scene_file;
 use super::terminal::print_status;
 use super::verify::recording::{end_of, refuse_late_checks};
 use crate::run::link::MAX_LETTERS;
-use crate::run::{Race, Session, link};
+use crate::run::race::Lane;
+use crate::run::{Race, Run, Session, link};
 use crate::scene::{Check, Scene};
 
-/// Most coordinates times ticks that are run for the checks of a link, which takes seconds.
-const MAX_WORK: u64 = 2_000_000;
+/// Most coordinates that are computed for the checks of a link, which takes seconds.
+const MAX_WORK: u64 = 100_000_000;
 
 const ABOUT: &str = "\
 The link holds the scene, its lanes, its script and the hashes at its end, so that `regatta verify LINK`
@@ -41,17 +42,27 @@ pub(super) struct LinkArgs {
 /// Returns checks to the end of a scene, or of the part that takes some seconds.
 fn checks_within(path: &Path, scene: &Scene) -> Result<Vec<Check>, Error> {
     let last = end_of(path, scene)?;
-    let race = Race::of_scene(scene);
-    let lanes = race.entrants().iter().flat_map(|entrant| entrant.lane.bodies());
-    let numbers: usize = lanes.map(|body| body.stepper.q().len()).sum();
-    let most = (MAX_WORK / numbers.max(1) as u64).max(1);
-    if last > most {
+    let mut run = Run::new(Session::racing(scene.clone().into()));
+    let mut work = 0;
+    while run.race().tick() < last && work < MAX_WORK {
+        run.tick(&mut ());
+        work += work_of_last_tick(run.race());
+    }
+    let reached = run.race().tick();
+    if reached < last {
         print_status(&format!(
-            "note: the run has {last} ticks; so that the link is made in seconds, its checks end at tick {most}; \
+            "note: the run has {last} ticks; so that the link is made in seconds, its checks end at tick {reached}; \
              a recording with [[check]]s is not cut"
         ));
     }
-    Ok(Session::racing(scene.clone().into()).recording(last.min(most)).checks)
+    Ok(run.recording().checks)
+}
+
+/// Returns the coordinates that the lanes and the truth computed in the last tick.
+fn work_of_last_tick(race: &Race) -> u64 {
+    let lanes = race.entrants().iter().map(|entrant| &entrant.lane).chain([race.truth()]);
+    let bodies = lanes.flat_map(Lane::bodies);
+    bodies.map(|body| (1 + body.evaluations_of_last_tick()) * body.stepper.q().len() as u64).sum()
 }
 
 pub(super) fn run(args: &LinkArgs) -> Result<(), Error> {

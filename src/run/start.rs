@@ -23,8 +23,8 @@ pub(crate) struct StartSettings {
     pub(crate) mode: Mode,
     /// Indices in `list` of a race's lanes.
     lanes: Vec<MenuIndex>,
-    /// The methods to which a person has switched lanes of the race, which keep their entries until the restart. Each is
-    /// with the lane's index.
+    /// The methods to which a person has switched lanes of the race, which keep their entries until the restart. Each
+    /// is with the lane's index.
     given: Vec<(usize, LaneSpec)>,
     /// Index in `list` of the solo method, which also joins a race.
     pub(crate) entry: MenuIndex,

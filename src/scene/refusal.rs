@@ -57,12 +57,14 @@ impl Scene {
         lanes
     }
 
-    /// Returns the scene at this tick rate. A rate other than the file's drops the hint, because the hint assumes the
+    /// Returns the scene at this tick rate. A rate other than the file's drops the hint and the checks, which assume the
     /// file's rate.
     pub fn at_tick_hz(self, tick_hz: impl Into<TickRate>) -> Self {
         let tick_hz = tick_hz.into();
-        let hint = self.hint.filter(|_| tick_hz == self.tick_hz);
-        Self { tick_hz, hint, ..self }
+        if tick_hz == self.tick_hz {
+            return self;
+        }
+        Self { tick_hz, hint: None, checks: Vec::new(), ..self }
     }
 
     /// Returns the scene with the lanes of these methods if there are several. A single method leaves the lanes alone,

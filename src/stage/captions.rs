@@ -229,6 +229,13 @@ pub(super) fn head(
     }
 }
 
+/// Returns the height below which flags keep clear of the [`verdicts`] of a race.
+pub(super) fn foot_of_verdicts(rect: Rect) -> f32 {
+    let has_verdicts =
+        rect.max[1] - rect.min[1] >= breakpoints::CHIP && caption_place(rect).is_some();
+    rect.min[1] + if has_verdicts { 4.0 + CHIP } else { 0.0 }
+}
+
 /// Writes the verdicts of a race at the head of a cell: that on the lane in front as a chip, and before it the sign and
 /// the number of each other lane, with its words if there is room for all.
 pub(super) fn verdicts(
@@ -238,7 +245,7 @@ pub(super) fn verdicts(
     index: usize,
     (entrants, front): (&[&Entrant], &Entrant),
 ) {
-    if rect.max[1] - rect.min[1] < breakpoints::CHIP || caption_place(rect).is_none() {
+    if foot_of_verdicts(rect) == rect.min[1] {
         return;
     }
     let left = name_room(rect, moment, index).map_or(rect.min[0] + 10.0, |name| name.max[0] + 10.0);

@@ -307,7 +307,10 @@ impl BodyCell<'_> {
             Framing::Recorder { .. } => camera.at[1] - camera.rect.min[1] + 0.6 * camera.block,
             Framing::Follow { .. } | Framing::Fixed { .. } => BADGES,
         };
-        let room = badges(picture, camera, &lost, [below, BADGES], palette);
+        let mut room = badges(picture, camera, &lost, [below, BADGES], palette);
+        if self.lanes.len() > 1 {
+            room.min[1] = room.min[1].max(captions::foot_of_verdicts(camera.rect));
+        }
         let name = captions::name_room(camera.rect, moment, index);
         if let Some(front) = numbered {
             clear_number(&mut flagged, front, lift);

@@ -339,6 +339,7 @@ pub(super) fn badges(
 mod tests {
     use super::*;
     use crate::scene::Scene;
+    use crate::stage::captions::foot_of_verdicts;
     use crate::stage::compose;
     use crate::studio::{StageCommand, Studio};
 
@@ -402,7 +403,8 @@ mod tests {
         let (mut badges, mut beside) = (0, 0);
         for _ in 0..300 {
             studio.tick();
-            for size in [[496.0, 342.0], [794.0, 430.0]] {
+            // In the last, there is no room for verdicts, and flags stand beside the names.
+            for size in [[496.0, 342.0], [794.0, 430.0], [496.0, 170.0]] {
                 let picture = compose(&studio, size);
                 for (cell, name) in picture.cells.iter().zip(["Spring", "Damped spring"]) {
                     let of_cell =
@@ -431,5 +433,30 @@ mod tests {
             }
         }
         assert!(badges > 100 && beside > 100, "{badges} badges, {beside} flags");
+    }
+
+    #[test]
+    fn flags_stand_below_the_verdicts_of_a_race() {
+        let mut studio = Studio::new(Scene::built_in("harbour").unwrap());
+        studio.apply(StageCommand::ToggleRace);
+        studio.analyse();
+        let mut seen = 0;
+        for _ in 0..60 {
+            studio.tick();
+            let picture = compose(&studio, [794.0, 480.0]);
+            for cell in &picture.cells {
+                let is_flag = |label: &&Label| {
+                    label.text.len() == 1
+                        && label.size == 0.68 * FLAG
+                        && cell.rect.contains(label.at)
+                };
+                for flag in picture.labels.iter().filter(is_flag) {
+                    seen += 1;
+                    let top = flag.at[1] - FLAG / 2.0;
+                    assert!(top >= foot_of_verdicts(cell.rect), "{} at {:?}", flag.text, flag.at);
+                }
+            }
+        }
+        assert!(seen > 100, "{seen} flags");
     }
 }

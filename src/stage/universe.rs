@@ -33,6 +33,8 @@ const NAME: f32 = 13.0;
 const SENTENCE: f32 = 26.0;
 const LETTER: f32 = 7.1;
 const NAME_LETTER: f32 = 6.4;
+/// Least size of words on a narrow stage, relative to their usual one. Smaller ones are left out.
+const LEAST_SIZE: f32 = 0.65;
 
 /// Whether the stage, for a person who watches, has zoomed out far enough for landmarks.
 pub(super) fn is_shown(moment: &DrawContext<'_>, view: &BodyView, camera: &Camera) -> bool {
@@ -140,6 +142,9 @@ impl Row {
         let (wide, across) =
             (NAME_LETTER * words.chars().count() as f32, room.max[0] - room.min[0]);
         let smaller = (across / wide).min(1.0);
+        if smaller < LEAST_SIZE {
+            return;
+        }
         let half = smaller * wide / 2.0;
         let middle = left + count as f32 * length / 2.0;
         let at = [middle.min(room.max[0] - half).max(room.min[0] + half), below + NAME];
@@ -196,6 +201,9 @@ pub(super) fn write_distance(
     let wide = LETTER * words.chars().count() as f32 + 32.0;
     // On a narrow stage, the full size would cross one side, or both.
     let smaller = ((camera.rect.max[0] - camera.rect.min[0]) / wide).min(1.0);
+    if smaller < LEAST_SIZE {
+        return;
+    }
     let half = smaller * wide / 2.0;
     let [least, most] = [camera.rect.min[0] + half, camera.rect.max[0] - half];
     let middle = camera.points(DVec2::ZERO)[0].max(least).min(most);
@@ -236,6 +244,17 @@ mod tests {
 
     fn texts(studio: &Studio) -> Vec<String> {
         compose(studio, SIZE).labels.into_iter().map(|label| label.text).collect()
+    }
+
+    #[test]
+    fn a_narrow_stage_has_no_words_that_nobody_can_read() {
+        let mut studio = watched("harbour", Motion::Live);
+        (0..600).for_each(|_| studio.tick());
+        for width in [0.0, 1.0, 30.0, 100.0, 200.0, 300.0, 1280.0] {
+            for label in compose(&studio, [width, SIZE[1]]).labels {
+                assert!(label.size >= 8.0, "{} of {} at {width}", label.text, label.size);
+            }
+        }
     }
 
     #[test]

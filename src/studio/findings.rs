@@ -14,8 +14,8 @@ use crate::sim::bodies::{Parameter, Range, TakesEffect};
 /// [offered](Deck::offered) method is judged at the present tick rate. In a race the rest of the menu is judged too.
 /// The advice is included while it is shown.
 ///
-/// A verdict is of what follows the last change of the run. A lane is judged from the state that it had then, and any
-/// other method from the true one. Advice is on the scene from its start, or from where a person last placed or kicked
+/// A verdict is of what follows the last change of the run, from the state that a lane had then. A method that a race
+/// lacks is judged from the true state. Advice is on the scene from its start, or from where a person last placed or kicked
 /// a body. It includes a person's settings, and the parameters that the script has set by the present tick.
 pub fn analysis_request(deck: &Deck, viewer: &Viewer) -> AnalysisRequest {
     let flown = deck.race().entrants().iter().map(|lane| deck.entry(lane) + 1);
@@ -26,7 +26,12 @@ pub fn analysis_request(deck: &Deck, viewer: &Viewer) -> AnalysisRequest {
     };
     let checkpoints = deck.run().checkpoints();
     let by_hand = Interventions::in_race(deck.race(), checkpoints);
-    let lane = |entry| deck.lane_of(entry).map(|lane| lane.id).filter(|&id| by_hand.differ_in(id));
+    // Alone on the stage, a lane goes on from its state under whichever method is picked.
+    let lane = |entry| match deck.mode() {
+        Mode::Solo => deck.race().entrants().first(),
+        Mode::Race => deck.lane_of(entry),
+    };
+    let lane = |entry| lane(entry).map(|lane| lane.id).filter(|&id| by_hand.differ_in(id));
     AnalysisRequest {
         scene: Arc::clone(&deck.run.next().scene),
         advised: Interventions::for_advice(deck.race(), checkpoints),

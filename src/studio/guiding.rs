@@ -179,7 +179,8 @@ pub(super) fn hint(deck: &Deck, viewer: &Viewer, is_in_loop_lab: bool) -> Option
     if let Some(fan) = fan_hint(deck, viewer, is_in_loop_lab) {
         return Some(fan.to_owned());
     }
-    let outcome = viewer.verdict(deck.active()).map(|verdict| verdict.outcome());
+    let from_start = viewer.verdict(deck.active()).filter(|verdict| verdict.starts_at_s == 0.0);
+    let outcome = from_start.map(|verdict| verdict.outcome());
     viewer.hints.text(&hint_context(deck, viewer, is_in_loop_lab), outcome)
 }
 

@@ -38,7 +38,7 @@ impl FileWatch {
         events: EventLoopProxy<Event>,
     ) -> Self {
         let (files, sent) = channel();
-        let watched = opened.map(|(path, text)| WatchedFile::new(path, text.into_bytes()));
+        let watched = opened.and_then(|(path, text)| WatchedFile::of_scene(path, text));
         thread::spawn(move || watch(&read, watched.into_iter().collect(), &sent, &events));
         Self { files }
     }
@@ -67,7 +67,7 @@ fn watch(
                 let found = requested.read(read);
                 if let Some((path, text)) = found.scene() {
                     files.retain(|known| known.path != path);
-                    files.push(WatchedFile::new(path, text.into_bytes()));
+                    files.extend(WatchedFile::of_scene(path, text));
                 }
                 if events.send_event(Event::FileRead(found)).is_err() {
                     return;
@@ -148,6 +148,16 @@ struct WatchedFile {
 }
 
 impl WatchedFile {
+    /// Watches the file of a scene with this text. The file of a rule or a capture has other bytes, which are read. A
+    /// folder is not watched.
+    fn of_scene(path: PathBuf, text: String) -> Option<Self> {
+        let bytes = match path.extension().is_some_and(|ending| ending == "toml") {
+            true => text.into_bytes(),
+            false => regular_file::read(&path, MAX_FILE_BYTES).ok()?,
+        };
+        Some(Self::new(path, bytes))
+    }
+
     fn new(path: PathBuf, bytes: Vec<u8>) -> Self {
         Self { path, bytes: Some(bytes), missing: 0, stamp: None, reads: 0 }
     }
@@ -271,5 +281,16 @@ mod tests {
         assert_eq!(watched.bytes, None);
         std::fs::write(&watched.path, "two").unwrap();
         assert_eq!(looks(&mut watched, 2), [FileCheck::Changed, FileCheck::Same]);
+    }
+
+    #[test]
+    fn a_capture_is_not_watched_and_a_rule_by_its_own_bytes() {
+        let folder = tempfile::tempdir().unwrap();
+        let text = || "title = 'x'".to_owned();
+        assert!(WatchedFile::of_scene(folder.path().to_owned(), text()).is_none());
+        let path = folder.path().join("camera.step");
+        std::fs::write(&path, "x += v * dt").unwrap();
+        let mut watched = WatchedFile::of_scene(path, text()).unwrap();
+        assert_eq!(looks(&mut watched, 2), [FileCheck::Same, FileCheck::Same]);
     }
 }

@@ -265,11 +265,13 @@ impl Desk {
         (self.program.processor_time() - start).as_secs_f64() / span.as_secs_f64()
     }
 
-    /// Ends the program by the keys. The two presses of Escape answer the question with no if it was asked at once.
+    /// Ends the program by the keys. After Escape has taken all layers away, a deed that undoes itself answers the question
+    /// with no if it is asked, so that Enter then follows the question.
     #[track_caller]
     pub(crate) fn quit(mut self) {
         until("the end", || {
-            let _ = self.display.xdotool("key Escape Escape Return");
+            let layers = "Escape ".repeat(12);
+            let _ = self.display.xdotool(&format!("key {layers} F4 F4 Escape Return"));
             self.program.ended()
         });
         self.ends();

@@ -264,7 +264,7 @@ impl Verdict {
         let faint = parasite_doubles_in_s.filter(|_| outcome <= Outcome::Grows);
         [
             self.failure().map(|failure| failure.cause.to_string()),
-            self.comparison().filter(|_| outcome > Outcome::Bounded).and_then(Comparison::already),
+            self.already(),
             self.comparison().and_then(|found| self.error_over_time(found)),
             self.comparison().and_then(Comparison::pitch),
             growth,
@@ -302,11 +302,19 @@ impl Verdict {
         self.words() + &self.in_brackets(is_named)
     }
 
-    /// Returns ever shorter wordings for limited room, which are the word and the number, and then only the word. If
-    /// `is_named`, the wordings name the body if there are several.
+    /// Returns ever shorter wordings for limited room, which are the word and the number, and then only the word. What is
+    /// already wrong where a growing swing begins comes first, if there is room. If `is_named`, the wordings name the
+    /// body if there are several.
     pub fn wordings(&self, is_named: bool) -> Vec<String> {
         let in_brackets = self.in_brackets(is_named);
-        vec![self.line(is_named), self.word().to_owned() + &in_brackets]
+        let word = self.word().to_owned() + &in_brackets;
+        let already = self.already().map(|already| already + BETWEEN + &self.line(is_named));
+        already.into_iter().chain([self.line(is_named), word]).collect()
+    }
+
+    /// Describes the wrong width with which a swing begins that does not stay at it.
+    fn already(&self) -> Option<String> {
+        self.comparison().filter(|_| self.outcome() > Outcome::Bounded)?.already()
     }
 }
 

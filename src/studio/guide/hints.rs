@@ -147,7 +147,7 @@ impl Hints {
         let mut leads = FOLLOW_UP_HINTS.iter().enumerate().filter(|(index, _)| !self.leads[*index]);
         let (index, text) = leads.find_map(|(index, lead)| Some((index, (lead.text)(now)?)))?;
         let is_asked_to_restart = self.scene && index == RESTARTS;
-        // A verdict is about a run from the start, which may differ from the run on the stage.
+        // The verdict is about a run from the start, which may differ from the run on the stage.
         Some(match reaction(outcome).filter(|_| is_asked_to_restart) {
             Some(reaction) => format!("{} {reaction}. {text}", now.method().name),
             None => text.to_owned(),

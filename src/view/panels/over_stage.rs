@@ -58,6 +58,8 @@ pub(super) fn quit_question(ui: &Ui, studio: &Studio, stage: Rect) {
     let id = Id::unique("quit");
     let builder = UiBuilder::new().layer_id(LayerId::new(Order::Foreground, id)).max_rect(inside);
     let mut ui = Ui::new(ui.ctx().clone(), id, builder);
+    // By itself the room of the lines, which would cut their plate.
+    ui.set_clip_rect(stage);
     let stroke = Stroke::new(2.0, palette.accent);
     let plate = inside.expand(PADDING);
     ui.painter().rect(plate, 8.0, palette.panel, stroke, egui::StrokeKind::Inside);

@@ -29,7 +29,7 @@ const BLOCKS: [(&str, &str, usize); 19] = [
     ("logs", "console", 1),
     ("questions", "console", 15),
     ("code", "console", 1),
-    ("step", "console", 3),
+    ("step", "console", 5),
     ("library", "rust", 2),
     ("library", "text", 1),
     ("library", "toml", 1),

@@ -23,7 +23,7 @@ fn each_mistake_is_named_with_its_remedy() {
         ("loop --scene spring --method smooth-damp", "smooth-damp does not step"),
         ("trace --scene nosuch.toml", "give one of these, or the path of a scene file"),
         ("trace --scene nosuch.toml", "no file and no built-in scene (harbour, spring, ship, "),
-        ("trace --scene .", ". is a directory; give a scene file in it"),
+        ("trace --scene .", ". is a directory without manifest.json; give a scene file, or the"),
         ("trace --method rk5", "did you mean rk4? `regatta list methods` names all"),
         ("trace --method xpbd", "did you mean linearly-implicit-euler?"),
         ("trace --method soft_constraint", "did you mean linearly-implicit-euler?"),

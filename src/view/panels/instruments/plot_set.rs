@@ -411,7 +411,7 @@ impl PlotModel {
         });
         let before = self.before.iter().filter_map(|line| {
             let (_, at) = line.track.at(t)?;
-            let (colour, name) = (line.colour, line.name.clone());
+            let (colour, name) = (line.colour, "before".to_owned());
             Some(Readout { entry: None, colour, is_front: true, name, at })
         });
         lanes.chain(exact).chain(before).collect()
