@@ -516,7 +516,8 @@ pub(super) fn ghost_name(
     let is_recorded = camera.quay_m != 0.0;
     let up = if is_recorded { 0.7 * beside + 8.0 } else { beside + 6.0 };
     let [below, above] = [(y + beside + 6.0).min(max[1] - 8.0), y - up];
-    let is_above_free = above > min[1] + CHIP;
+    // Below the chip, with half the height of the letters.
+    let is_above_free = above > min[1] + 4.0 + CHIP + 7.0;
     let mut places = [(sides[0], below), (sides[0], above), (sides[1], below)];
     if is_recorded {
         places.swap(0, 1);

@@ -914,7 +914,6 @@ react-spring\t''
 motion\t''
 motion-duration\t''
 slint\t''
-slint-duration\t''
 gpui\t''
 unity-smooth-damp\t''
 per-frame\t''"
@@ -934,6 +933,10 @@ json\t'An array of objects, for programs'"
 complete -c regatta -n "__fish_regatta_using_subcommand port" -l drive -d 'The limits of a drive with these gains'
 complete -c regatta -n "__fish_regatta_using_subcommand port" -s h -l help -d 'Print help (see more with \'--help\')'
 complete -c regatta -n "__fish_regatta_using_subcommand rule" -l fps -d 'The frames per second for which they were written' -r
+complete -c regatta -n "__fish_regatta_using_subcommand rule" -l dt -d 'The unit of dt in the lines: s, ms or us' -r -f -a "s\t''
+ms\t''
+us\t''"
+complete -c regatta -n "__fish_regatta_using_subcommand rule" -l within -d 'The fraction of the way, or of the speed, within which it has settled: 0.01 if left out' -r
 complete -c regatta -n "__fish_regatta_using_subcommand rule" -l as -d 'The language of the code: rust, c, cpp, csharp or gdscript' -r -f -a "rust\t''
 c\t''
 csharp\t''
