@@ -17,6 +17,8 @@ use crate::scene::{Check, Scene};
 
 /// Most coordinates that are computed for the checks of a link, which takes seconds.
 const MAX_WORK: u64 = 100_000_000;
+/// Work of a tick besides its coordinates, in coordinates.
+const WORK_OF_TICK: u64 = 32;
 
 const ABOUT: &str = "\
 The link holds the scene, its lanes, its script and the hashes at its end, so that `regatta verify LINK`
@@ -46,7 +48,7 @@ fn checks_within(path: &Path, scene: &Scene) -> Result<Vec<Check>, Error> {
     let mut work = 0;
     while run.race().tick() < last && work < MAX_WORK {
         run.tick(&mut ());
-        work += work_of_last_tick(run.race());
+        work += WORK_OF_TICK + work_of_last_tick(run.race());
     }
     let reached = run.race().tick();
     if reached < last {
