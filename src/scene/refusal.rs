@@ -57,8 +57,8 @@ impl Scene {
         lanes
     }
 
-    /// Returns the scene at this tick rate. A rate other than the file's drops the hint and the checks, which assume the
-    /// file's rate.
+    /// Returns the scene at this tick rate. A rate other than the file's drops the hint and the checks, which assume
+    /// the file's rate.
     pub fn at_tick_hz(self, tick_hz: impl Into<TickRate>) -> Self {
         let tick_hz = tick_hz.into();
         if tick_hz == self.tick_hz {

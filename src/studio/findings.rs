@@ -15,8 +15,8 @@ use crate::sim::bodies::{Parameter, Range, TakesEffect};
 /// The advice is included while it is shown.
 ///
 /// A verdict is of what follows the last change of the run, from the state that a lane had then. A method that a race
-/// lacks is judged from the true state. Advice is on the scene from its start, or from where a person last placed or kicked
-/// a body. It includes a person's settings, and the parameters that the script has set by the present tick.
+/// lacks is judged from the true state. Advice is on the scene from its start, or from where a person last placed or
+/// kicked a body. It includes a person's settings, and the parameters that the script has set by the present tick.
 pub fn analysis_request(deck: &Deck, viewer: &Viewer) -> AnalysisRequest {
     let flown = deck.race().entrants().iter().map(|lane| deck.entry(lane) + 1);
     let first = flown.max().unwrap_or_default().max(deck.offered());

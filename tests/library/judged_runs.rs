@@ -62,14 +62,15 @@ fn an_edited_parameter_gives_the_verdicts_of_the_edited_body() {
     let mut studio = opened(&Scene::built_in("spring").unwrap());
     let before = verdicts(&mut studio);
     (0..100).for_each(|_| studio.tick());
+    // The lane is in the true state, from which all are judged then.
+    studio.apply(RunCommand::Act(Action::Place { body: 0, q: [0.5].into(), v: [0.1].into() }));
     let stiffness = parameter(studio.scene(), "stiffness_n_per_m");
     studio.apply(RunCommand::Act(Action::Set { body: 0, parameter: stiffness, value: 10_000.0 }));
     let (x, v) = truth(&studio);
     let stiff = [("stiffness_n_per_m", 10_000.0), ("x0_m", x), ("v0_m_per_s", v)];
     let stiff = with(Scene::built_in("spring").unwrap(), &stiff);
     let after = verdicts(&mut studio);
-    // The first method flies, and is judged from its own state.
-    assert_eq!(after[1..], verdicts_on(&stiff)[1..]);
+    assert_eq!(after, verdicts_on(&stiff));
     assert_eq!(starts_at_s(&mut studio), 100.0 / 60.0);
     assert_ne!(after, before);
 }
@@ -160,20 +161,27 @@ fn a_body_placed_at_rest_is_judged_at_rest() {
 }
 
 #[test]
-fn a_kicked_body_is_judged_from_its_true_state_after_the_kick() {
+fn a_kicked_body_is_judged_from_its_state_after_the_kick() {
     let mut studio = opened(&Scene::built_in("spring").unwrap());
     (0..130).for_each(|_| studio.tick());
     assert_eq!(starts_at_s(&mut studio), 0.0);
-    let (_, before) = truth(&studio);
+    let before = truth(&studio).1;
+    studio.apply(RunCommand::Act(Action::Kick(3.0)));
+    assert_ne!(truth(&studio).1, before);
+    // Explicit Euler is off by now, so that any method that a key picks goes on too wide.
+    let off = verdicts(&mut studio);
+    assert!(off[0].contains("already 1.5 × too wide"), "{}", off[0]);
+    for other in [1, 3] {
+        let said = &off[other];
+        assert!(said.starts_with("stays ±1.1") && said.contains("(exact ±0.755)"), "{said}");
+    }
+    assert_eq!(starts_at_s(&mut studio), 130.0 / 60.0);
+    studio.apply(RunCommand::Act(Action::Place { body: 0, q: [0.5].into(), v: [0.1].into() }));
     studio.apply(RunCommand::Act(Action::Kick(3.0)));
     let (x, v) = truth(&studio);
-    assert_ne!(v, before);
     let kicked = Scene::built_in("spring").unwrap();
     let kicked = with(kicked, &[("x0_m", x), ("v0_m_per_s", v)]);
-    let (after, of_truth) = (verdicts(&mut studio), verdicts_on(&kicked));
-    assert_eq!(after[1..], of_truth[1..]);
-    assert!(after[0] != of_truth[0] && after[0].contains("too wide"), "{}", after[0]);
-    assert_eq!(starts_at_s(&mut studio), 130.0 / 60.0);
+    assert_eq!(verdicts(&mut studio), verdicts_on(&kicked));
 }
 
 #[test]

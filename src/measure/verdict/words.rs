@@ -302,9 +302,9 @@ impl Verdict {
         self.words() + &self.in_brackets(is_named)
     }
 
-    /// Returns ever shorter wordings for limited room, which are the word and the number, and then only the word. What is
-    /// already wrong where a growing swing begins comes first, if there is room. If `is_named`, the wordings name the
-    /// body if there are several.
+    /// Returns ever shorter wordings for limited room, which are the word and the number, and then only the word. What
+    /// is already wrong where a growing swing begins comes first, if there is room. If `is_named`, the wordings name
+    /// the body if there are several.
     pub fn wordings(&self, is_named: bool) -> Vec<String> {
         let in_brackets = self.in_brackets(is_named);
         let word = self.word().to_owned() + &in_brackets;
