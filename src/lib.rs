@@ -8,8 +8,8 @@
 //! | room | holds | may name | open first |
 //! |---|---|---|---|
 //! | [`sim`] | states, equations, methods, bodies | - | `sim/integrators/rk4.rs` |
-//! | [`table`] | a table reader: bytes to rows and numbers | - | `table/mod.rs` |
 //! | [`scene`] | scenes as text and value, actions, custom bodies | `sim` | `scene/mod.rs` |
+//! | [`table`] | a table reader: bytes to rows and numbers | `sim scene` | `table/mod.rs` |
 //! | [`run`] | a race against the truth: actions, past, recording | `sim table scene` | `run/mod.rs` |
 //! | [`tools`] | a log's method, springs for engines, source code | `sim table scene` | `tools/port.rs` |
 //! | [`measure`] | verdicts, advice, stability maps, clouds | `sim scene run tools` | `measure/judge.rs` |

@@ -10,10 +10,13 @@ use super::error::Error;
 use super::help::flowing;
 use super::output::table::TableFormat;
 use super::scene_file::name_in_messages;
+use super::table_args::{TableArgs, taken_object};
+use super::terminal::print_status;
 use super::visible::visible_in_a_line;
 use crate::run::diff::{Chosen, Comparison, Difference, LEVELS, MAX_WAITING, Tolerance, diff};
 use crate::scene::clip_list;
 use crate::sim::number::counted;
+use crate::table::Taken;
 
 mod source;
 
@@ -22,7 +25,8 @@ use source::Source;
 const ABOUT: &str = "\
 A run is a table, a scene or recording (diff runs it again), the directory of a capture (diff reads the
 states in its manifest), or - for a table on standard input. A table comes from `regatta trace`, or has a
-column for each number; commas, semicolons or tabs separate its cells.
+column for each number; commas, semicolons, tabs or spaces separate its cells. It may be JSON too, such as
+an object on each line. A dump, whose first line is as Frame: 1000, is compared line by line, by frames.
 
 Diff matches rows by the columns tick, lane, body and coordinate, as far as the tables have them; without
 tick by t, and without t by the number of the row. --key names other columns, such as frame,object; one
@@ -38,9 +42,10 @@ grows exponentially through three decades, diff prints its rate, by the times of
 
 In JSON, columns are those that differ, with their first tick and their rows, and equal the others.
 
-Exit code 0: the same. 1: different. 2: cannot be compared, for example because nothing moves. A column
-that is called like a clock and never goes back does not count as motion. Nor does one of several that
-grows by the same amount in each row, unless it is called like a coordinate, such as x or position.
+Exit code 0: the same. 1: different. 2: cannot be compared, for example because nothing moves. A column of
+numbers that is called like a clock and never goes back does not count as motion; one of text that changes
+does. Nor does one of several that grows by the same amount in each row, unless it is called like a
+coordinate, such as x or position.
 
 Examples:
   regatta diff before.csv after.csv
@@ -75,10 +80,6 @@ pub(super) struct DiffArgs {
     #[arg(long, value_name = "COLUMN,…", value_delimiter = ',')]
     key: Vec<String>,
 
-    /// The column that counts ticks [default: tick]
-    #[arg(long, value_name = "COLUMN")]
-    tick_column: Option<String>,
-
     /// Compare these columns only
     #[arg(long, value_name = "COLUMN,…", value_delimiter = ',')]
     columns: Vec<String>,
@@ -86,6 +87,9 @@ pub(super) struct DiffArgs {
     /// Do not compare these columns
     #[arg(long, value_name = "COLUMN,…", value_delimiter = ',', conflicts_with = "columns")]
     ignore: Vec<String>,
+
+    #[command(flatten)]
+    table: TableArgs,
 
     /// The format: text or json
     #[arg(long, value_name = "FORMAT", default_value = "text", hide_possible_values = true)]
@@ -101,21 +105,32 @@ pub(super) fn run(args: &DiffArgs) -> Result<(), Error> {
     if paths.iter().all(|path| path.as_os_str() == "-") {
         return Err(Error::mistake("both are standard input; give a file for one"));
     }
-    let mut a = Source::open(&args.a)?;
-    let mut b = Source::open(&args.b)?;
+    let options = args.table.options();
+    let mut a = Source::open(&args.a, &options)?;
+    let mut b = Source::open(&args.b, &options)?;
     let tolerance = Tolerance { ulps: args.ulps, relative: args.relative };
-    let chosen = Chosen {
+    let named = |wanted: &Option<String>| wanted.as_deref().map(|wanted| a.name_of(wanted));
+    let wanted = [&options.x, &options.v].into_iter().filter_map(named);
+    let mut chosen = Chosen {
         key: args.key.clone(),
-        tick: args.tick_column.clone(),
-        columns: args.columns.clone(),
-        ignored: args.ignore.clone(),
+        tick: named(&options.tick),
+        columns: args.columns.iter().cloned().chain(wanted).collect(),
+        ignored: args.ignore.iter().cloned().chain(named(&options.frame)).collect(),
     };
+    if let (Some(moment), true, true) = (a.moment_of_dump(), b.is_dump(), chosen.key.is_empty()) {
+        (chosen.tick, chosen.key) = (Some(moment.to_owned()), vec!["line".into()]);
+    }
     let found = diff(&mut a, &mut b, tolerance, &chosen).map_err(|error: Error| {
         error.and(format!("a is {}, b is {}", name_in_messages(&args.a), name_in_messages(&args.b)))
     })?;
+    for (name, source) in [("a", &a), ("b", &b)] {
+        if let Some(taken) = source.taken().filter(|taken| taken.rows != [1, taken.of]) {
+            print_status(&format!("{name}: read {}", taken.rows_in_words()));
+        }
+    }
     let text = match args.format {
         TableFormat::Text => report_text(&found, &args.a, &args.b),
-        TableFormat::Json => object(&found),
+        TableFormat::Json => object(&found, [&a, &b].map(|source| source.taken())),
     };
     args.format.print(&text).map_err(Error::into_mistake)?;
     let names = format!("{} and {}", name_in_messages(&args.a), name_in_messages(&args.b));
@@ -213,7 +228,7 @@ fn by_column(found: &Comparison, tick_name: Option<&str>) -> String {
 }
 
 /// Returns the comparison as JSON. Its numbers are spelled as in the tables.
-fn object(found: &Comparison) -> String {
+fn object(found: &Comparison, taken: [Option<Taken>; 2]) -> String {
     const WRITTEN: [&str; 2] = ["\u{1}a", "\u{1}b"];
     let finite = |part: f64| part.is_finite().then_some(part);
     let first = found.first.as_ref().map(|first| {
@@ -244,6 +259,10 @@ fn object(found: &Comparison) -> String {
         "reaches": reaches.collect::<Vec<_>>(),
         "per_second": found.per_second,
         "missing": { "a": found.missing[0], "b": found.missing[1] },
+        "read": {
+            "a": taken[0].as_ref().map(taken_object),
+            "b": taken[1].as_ref().map(taken_object),
+        },
         "worst": worst.map(|(column, part)| json!({ "column": column, "relative": finite(*part) })),
     });
     let mut text = format!("{object:#}\n");

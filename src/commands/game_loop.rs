@@ -19,6 +19,7 @@ use super::output::table::{RowFormat, RowWriter};
 use super::output::{Destination, Input, Output, STDOUT, same_file_path};
 use super::own_method::METHOD_OR_FILE;
 use super::scene_file;
+use super::table_args::{TableArgs, taken_object};
 use super::tick_rate::TickRateArgs;
 use super::trace_source::traces;
 use crate::atomic_file::IfExists;
@@ -80,11 +81,14 @@ pub(super) struct LoopArgs {
     /// A trace, or several [default: all built-in ones]
     ///
     /// `regatta list traces` has the names. Anything else is read as a file: CSV of PresentMon, OCAT, CapFrameX,
-    /// FrameView, MangoHud, Unreal or FRAPS, or frame times in milliseconds, one a line. Give the option again for
-    /// each.
+    /// FrameView, MangoHud, Unreal or FRAPS, or what Android prints of frames. Any other table or JSON needs a column of
+    /// frame times or of a clock, and a list has one a line. Give the option again for each.
     #[arg(long = "trace", value_name = "ID|FILE", value_parser = PathOrName(trace_names))]
     #[arg(hide_possible_values = true)]
     traces: Vec<PathBuf>,
+
+    #[command(flatten)]
+    table: TableArgs,
 
     #[command(flatten)]
     tick_rate: TickRateArgs,
@@ -174,7 +178,7 @@ pub(super) fn run(args: &LoopArgs) -> Result<(), Error> {
     scene_file::check_method(&scene, args.method)?;
     let scene = Scene { tick_hz: args.tick_rate.tick_rate().unwrap_or(scene.tick_hz), ..scene };
     let limits = args.limits()?;
-    let traces = traces(&args.traces, args.display_hz, args.fps)?;
+    let traces = traces(&args.traces, &args.table.options(), args.display_hz, args.fps)?;
     let format = row_format(&args.out, args.format)?;
     if let Some(plot) = args.plot() {
         check_picture_name(plot, &args.out)?;
@@ -227,7 +231,7 @@ pub(super) fn run(args: &LoopArgs) -> Result<(), Error> {
         }
         advice::print_advice(&rows[from..], args.latency_ms, limits);
     }
-    write_measured(out, format, &rows)?;
+    write_measured(out, format, &rows, &traces)?;
     if let Some(frames) = frames {
         frames.end()?.finish("the frames")?;
     }
@@ -298,8 +302,20 @@ fn metrics() -> impl Iterator<Item = &'static PacingMetric> {
     PACING_METRICS.iter().filter(|metric| metric.id != "state_difference")
 }
 
-fn write_measured(out: Output, format: RowFormat, rows: &[Measured]) -> Result<(), Error> {
+fn write_measured(
+    out: Output,
+    format: RowFormat,
+    rows: &[Measured],
+    traces: &[FrameTrace],
+) -> Result<(), Error> {
+    // What was read of a log is an object, which a cell of CSV has no room for.
+    let read = |name: &str| {
+        let trace = traces.iter().find(|trace| trace.name() == name);
+        json!(trace.and_then(FrameTrace::taken).map(taken_object))
+    };
+    let has_read = format == RowFormat::Json && traces.iter().any(|it| it.taken().is_some());
     let keys = ["policy", "trace", "tick_hz"].into_iter().chain(metrics().map(|metric| metric.id));
+    let keys = keys.chain(has_read.then_some("read"));
     let mut writer = RowWriter::begin(out, format, keys)?;
     for Measured { card, trace, tick_hz, report, .. } in rows {
         let value = |metric: &PacingMetric| match ((metric.measure)(report), metric.unit) {
@@ -307,7 +323,9 @@ fn write_measured(out: Output, format: RowFormat, rows: &[Measured]) -> Result<(
             (value, _) => json!(value),
         };
         let of = [json!(card.id), json!(trace), json!(tick_hz)];
-        writer.row(&of.into_iter().chain(metrics().map(value)).collect::<Vec<Value>>())?;
+        let read = has_read.then(|| read(trace));
+        writer
+            .row(&of.into_iter().chain(metrics().map(value)).chain(read).collect::<Vec<Value>>())?;
     }
     writer.end()?.finish(&counted(rows.len(), "row"))
 }

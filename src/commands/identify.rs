@@ -8,20 +8,24 @@ use super::argument::{brief, number, number_that, positive};
 use super::error::Error;
 use super::help::flowing;
 use super::output::table::TableFormat;
+use super::table_args::TableArgs;
 use super::terminal::print_status;
 use super::tick_rate::{rate_of_a_log, rate_of_a_step};
 use crate::regular_file;
-use crate::tools::identify::{ColumnNames, Log, LogError, LogSetting, LoggedBody, identify};
+use crate::tools::identify::{Log, LogError, LogSetting, LoggedBody, identify};
 
 mod findings;
 
 use findings::{object, report_text};
 
 const ABOUT: &str = "\
-LOG.csv has a header and a row for each tick, or for some of them: t in seconds, x in metres and v, if
-logged. If rows are skipped, a column tick counts them; without it, t does. Rows at uneven times, as of a
-video, show the motion but not the method. If a log without v fits several methods, identify assumes a
-start at rest where that decides. A line on standard error names the columns and the rate.
+LOG.csv is a table or JSON with a row for each tick, or for some of them: t, x in metres and v, if logged.
+The unit of t is in its heading, or found by its size; without t and tick, the rows are ticks of --tick-hz.
+If rows are skipped, a column tick counts them; without it, t does. Rows at uneven times, as of a video,
+show the motion but not the method; rows that step alike whatever their times are ticks. If a log without v
+fits several methods, identify assumes a start at rest where that decides. At most 3000 ticks are read;
+--rows, or --start and --end choose which. A line on standard error has the rows, the columns and those
+left out, the unit and the rate; in JSON it is read.
 The body is one of:
 
   a spring      --k, and --c and --mass if they are not 0 and 1
@@ -61,9 +65,8 @@ pub(super) struct IdentifyArgs {
     #[arg(value_name = "LOG.csv")]
     log: PathBuf,
 
-    /// Ticks per second of the game that wrote it
+    /// Ticks per second of the game that wrote it [default: by the times]
     #[arg(long, value_name = "N", value_parser = rate_of_a_log, allow_negative_numbers = true)]
-    #[arg(required_unless_present = "step")]
     tick_hz: Option<f64>,
 
     /// The length of a tick, in place of --tick-hz
@@ -113,21 +116,8 @@ pub(super) struct LogArgs {
     #[arg(long, value_name = "N", value_parser = signed, allow_negative_numbers = true)]
     thrust: Option<f64>,
 
-    /// The column of the tick's number
-    #[arg(long, value_name = "NAME", default_value = "tick")]
-    tick_column: String,
-
-    /// The column of the time in seconds
-    #[arg(long, value_name = "NAME", default_value = "t")]
-    t_column: String,
-
-    /// The column of the coordinate in metres
-    #[arg(long, value_name = "NAME", default_value = "x")]
-    x_column: String,
-
-    /// The column of the velocity in metres per second
-    #[arg(long, value_name = "NAME", default_value = "v")]
-    v_column: String,
+    #[command(flatten)]
+    table: TableArgs,
 }
 
 fn signed(written: &str) -> Result<f64, String> {
@@ -140,28 +130,36 @@ fn remedy(error: &LogError) -> &'static str {
         None => "",
         Some(LogSetting::TickColumn) => "; name one of them with --tick-column",
         Some(LogSetting::TimeColumn) => "; name one of them with --t-column",
-        Some(LogSetting::TickOrTimeColumn) => "; name one with --tick-column or --t-column",
         Some(LogSetting::CoordinateColumn) => "; name the coordinate's with --x-column",
         Some(LogSetting::VelocityColumn) => "; name one of them with --v-column",
-        Some(LogSetting::TickRate) => ": give the rate of the log with --tick-hz",
+        Some(LogSetting::MissingTickRate) => {
+            "; give it with --tick-hz, or name the times with --t-column"
+        }
+        Some(LogSetting::Unit) => "; give it with --unit ns, us, ms or s",
+        Some(LogSetting::Filter) => "",
     }
 }
 
 impl LogArgs {
-    /// Reads the log at `path`, which comes from a game with this tick rate in hertz.
-    pub(super) fn read(&self, path: &Path, tick_hz: f64) -> Result<Log, Error> {
+    /// Reads the log at `path`, which comes from a game with this tick rate in hertz. Without one the log's times give
+    /// it, or else `usual_hz`.
+    pub(super) fn read(
+        &self,
+        path: &Path,
+        tick_hz: Option<f64>,
+        usual_hz: Option<f64>,
+    ) -> Result<Log, Error> {
         let bytes = regular_file::read_table(path).map_err(|error| {
             Error::mistake(format!("cannot read the log {}: {error}", brief(path)))
         })?;
-        let columns = ColumnNames {
-            tick: self.tick_column.clone(),
-            t: self.t_column.clone(),
-            x: self.x_column.clone(),
-            v: self.v_column.clone(),
-        };
         let is_standard = path.as_os_str() == "-";
         let name = if is_standard { "standard input".into() } else { brief(path) };
-        let parsed = Log::from_bytes(&name, &bytes, &columns, tick_hz);
+        let options = self.table.options();
+        let mut parsed = Log::from_bytes(&name, &bytes, &options, tick_hz);
+        let is_missing = |error: &LogError| error.mistaken == Some(LogSetting::MissingTickRate);
+        if usual_hz.is_some() && parsed.as_ref().is_err_and(is_missing) {
+            parsed = Log::from_bytes(&name, &bytes, &options, usual_hz);
+        }
         let log = parsed.map_err(|error| Error::mistake(format!("{error}{}", remedy(&error))))?;
         print_status(&log.summary());
         Ok(log)
@@ -180,13 +178,13 @@ impl LogArgs {
 }
 
 pub(super) fn run(args: &IdentifyArgs) -> Result<(), Error> {
-    let tick_hz = args.tick_hz.or(args.step).expect("the parser requires one");
-    let log = args.read.read(&args.log, tick_hz)?;
+    let log = args.read.read(&args.log, args.tick_hz.or(args.step), None)?;
+    let tick_hz = log.tick_hz();
     let found = identify(&log, &args.read.body(args.mass), tick_hz);
     let text = match (args.format, &found) {
         (TableFormat::Text, Some(found)) => report_text(found, &log, args.mass),
         (TableFormat::Text, None) => NOTHING_RUNS.to_owned(),
-        (TableFormat::Json, found) => format!("{:#}\n", object(found.as_ref(), args.mass)),
+        (TableFormat::Json, found) => format!("{:#}\n", object(found.as_ref(), &log, args.mass)),
     };
     args.format.print(&text)
 }

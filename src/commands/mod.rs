@@ -82,6 +82,7 @@ mod interrupt;
 mod jobs;
 mod output;
 mod own_method;
+mod table_args;
 mod terminal;
 mod tick_rate;
 mod visible;

@@ -89,9 +89,11 @@ pub(super) struct PortArgs {
     mass: f64,
 
     /// Ticks per second of the engines and of a log, frames per second of user interfaces
-    #[arg(long, value_name = "N", default_value = "60", value_parser = rate_of_a_log)]
+    ///
+    /// [default: 60, or by the times of a log]
+    #[arg(long, value_name = "N", value_parser = rate_of_a_log)]
     #[arg(allow_negative_numbers = true)]
-    tick_hz: f64,
+    tick_hz: Option<f64>,
 
     /// The length of a tick, in place of --tick-hz
     #[arg(long, value_name = "s", value_parser = rate_of_a_step, conflicts_with = "tick_hz")]
@@ -159,10 +161,13 @@ const TARGET: Id<Target> = Id {
     spellings: Vec::new,
 };
 
+/// Ticks per second where none are given.
+const USUAL_HZ: f64 = 60.0;
+
 impl PortArgs {
     /// Returns the tick rate in Hz, from either of its options.
     fn tick_hz(&self) -> f64 {
-        self.step.unwrap_or(self.tick_hz)
+        self.step.or(self.tick_hz).unwrap_or(USUAL_HZ)
     }
 }
 
@@ -197,6 +202,7 @@ pub(super) fn run(args: &PortArgs) -> Result<(), Error> {
         Some(WishSource::UiSpring { .. }) if !args.drive => Target::UiSprings,
         _ => Target::Engines,
     };
+    let (mut tick_hz, mut read) = (args.tick_hz(), None);
     let wish = match from {
         Some(WishSource::Approach(..) | WishSource::Friction(_)) if args.drive => {
             return Err(Error::mistake(
@@ -218,8 +224,9 @@ pub(super) fn run(args: &PortArgs) -> Result<(), Error> {
         Some(WishSource::UiSpring { as_given, .. }) if args.drive => as_given,
         Some(WishSource::UiSpring { shown, .. }) => shown,
         Some(WishSource::Log(path)) => {
-            let log = args.read.read(&path, args.tick_hz())?;
-            let found = identify(&log, &args.read.body(args.mass), args.tick_hz());
+            let log = args.read.read(&path, args.step.or(args.tick_hz), Some(USUAL_HZ))?;
+            (tick_hz, read) = (log.tick_hz(), Some(log.taken().clone()));
+            let found = identify(&log, &args.read.body(args.mass), tick_hz);
             let seen = found.and_then(|found| found.effective).filter(|seen| seen.omega > 0.0);
             let none = || {
                 Error::mistake(format!(
@@ -245,7 +252,7 @@ pub(super) fn run(args: &PortArgs) -> Result<(), Error> {
         asked.iter().any(asks)
     };
     let methods: Vec<&Method> = engines().filter(is_asked).collect();
-    let setups = setups(Some(&methods), args.tick_hz(), args.substeps);
+    let setups = setups(Some(&methods), tick_hz, args.substeps);
     let asked = asked.iter().flat_map(|asked| match asked {
         Target::UiSprings => UI_SPRINGS,
         Target::UiSpring(dialect) => std::slice::from_ref(*dialect),
@@ -266,8 +273,8 @@ pub(super) fn run(args: &PortArgs) -> Result<(), Error> {
     }
     // A drive may have any frequency, because the question is only whether it is stable.
     match setups.is_empty() || args.drive {
-        true => wish.check_numbers(args.tick_hz()).map_err(Error::mistake)?,
-        false => wish.check(args.tick_hz()).map_err(Error::mistake)?,
+        true => wish.check_numbers(tick_hz).map_err(Error::mistake)?,
+        false => wish.check(tick_hz).map_err(Error::mistake)?,
     }
     let text = if args.drive {
         let limits = |setup: Setup| {
@@ -278,11 +285,11 @@ pub(super) fn run(args: &PortArgs) -> Result<(), Error> {
             Drive { setup, limits: [of(None)].into_iter().chain(own_force).collect() }
         };
         let drives: Vec<Drive> = setups.into_iter().map(limits).collect();
-        report::drives(&wish, args.tick_hz(), &drives, args.format)
+        report::drives((&wish, tick_hz, read.as_ref()), &drives, args.format)
     } else {
         let of = |setup| PortedEngine { setup, ported: port(&wish, setup) };
         let all: Vec<PortedEngine> = setups.into_iter().map(of).collect();
-        report::springs(&wish, args.tick_hz(), &all, &dialects, args.format)
+        report::springs((&wish, tick_hz, read.as_ref()), &all, &dialects, args.format)
     };
     args.format.print(&text)
 }

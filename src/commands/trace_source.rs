@@ -11,6 +11,7 @@ use crate::loops::{
 };
 use crate::regular_file;
 use crate::scene::nearest;
+use crate::table::TableOptions;
 
 /// Refresh rate of the display for a trace that suits any display.
 const USUAL: RefreshRate = RefreshRate::new(60, 1);
@@ -28,6 +29,7 @@ fn remedy(path: &Path) -> String {
 /// display without a rate shows each frame when it begins.
 pub(super) fn traces(
     names: &[PathBuf],
+    options: &TableOptions,
     display: Option<RefreshRate>,
     fps: Option<RefreshRate>,
 ) -> Result<Vec<FrameTrace>, Error> {
@@ -38,13 +40,17 @@ pub(super) fn traces(
         }]),
         ([], None) => Ok(TRACES.iter().map(|card| card.trace(USUAL)).collect()),
         (names, _) => {
-            let found = names.iter().map(|name| named(name, display));
+            let found = names.iter().map(|name| named(name, options, display));
             Ok(found.collect::<Result<Vec<_>, _>>()?.concat())
         }
     }
 }
 
-fn named(path: &Path, display: Option<RefreshRate>) -> Result<Vec<FrameTrace>, Error> {
+fn named(
+    path: &Path,
+    options: &TableOptions,
+    display: Option<RefreshRate>,
+) -> Result<Vec<FrameTrace>, Error> {
     if let Some(card) = path.to_str().and_then(trace_card) {
         return match (card.refresh, display) {
             (Some(own), Some(display)) if own != display => {
@@ -67,7 +73,7 @@ fn named(path: &Path, display: Option<RefreshRate>) -> Result<Vec<FrameTrace>, E
         })
     })?;
     let name = regular_file::table_name(path);
-    let traces = trace_file::from_bytes(&name, &bytes).map_err(Error::mistake)?;
+    let traces = trace_file::from_table(&name, &bytes, options).map_err(Error::mistake)?;
     for summary in traces.iter().filter_map(FrameTrace::summary) {
         print_status(&summary);
     }

@@ -1,5 +1,6 @@
 //! Frame traces, which record when a game begins each frame and when its picture is displayed.
 
+use crate::table::Taken;
 use std::sync::Arc;
 
 use super::time_base::RefreshRate;
@@ -27,6 +28,8 @@ pub struct FrameTrace {
     format: String,
     /// Duration of the first frame before it began, in nanoseconds, if the log counts it; otherwise 0.
     lead_ns: i64,
+    /// The rows of the log that were taken; empty for a pattern.
+    taken: Taken,
 }
 
 /// The clocks of a trace.
@@ -87,6 +90,7 @@ impl FrameTrace {
             clocks: Clocks::Two,
             format: String::new(),
             lead_ns: 0,
+            taken: Taken::default(),
         }
     }
 
@@ -98,7 +102,8 @@ impl FrameTrace {
     ) -> Self {
         let source = Source::Pattern(Box::new(pattern));
         let (clocks, format) = (Clocks::One, String::new());
-        Self { name: name.into(), refresh, source, clocks, format, lead_ns: 0 }
+        let taken = Taken::default();
+        Self { name: name.into(), refresh, source, clocks, format, lead_ns: 0, taken }
     }
 
     /// Returns the name of the trace.
@@ -132,12 +137,16 @@ impl FrameTrace {
         };
         let rate = (frames.len() - usize::from(self.lead_ns == 0)) as f64 / lasted_s;
         Some(format!(
-            "read {} in {} s: {} a second, longest {} ms{never} ({})",
+            "read {} in {} s: {} a second, longest {} ms{never} ({}){}",
             counted(frames.len(), "frame"),
             significant(lasted_s, 3),
             significant(rate, 3),
             significant(1e3 * seconds(longest), 3),
-            self.format
+            self.format,
+            self.taken().map_or(String::new(), |taken| {
+                let unit = taken.unit_in_words();
+                format!("; {}; times {unit}{}", taken.rows_in_words(), taken.rest_in_words())
+            })
         ))
     }
     /// Returns the same frames, marked as from a log without display times.
@@ -147,6 +156,14 @@ impl FrameTrace {
     /// Whether frames begin and are displayed by one clock. In the logs of most tools there are two clocks.
     pub fn has_one_clock(&self) -> bool {
         self.clocks != Clocks::Two
+    }
+    /// Returns the same frames, with the rows of the log that were taken.
+    pub(super) fn with_taken(self, taken: Taken) -> Self {
+        Self { taken, ..self }
+    }
+    /// Returns the rows of the log that were taken; `None` for a pattern.
+    pub fn taken(&self) -> Option<&Taken> {
+        Some(&self.taken).filter(|taken| taken.of > 0)
     }
     /// Returns the same frames, without display times because the log contradicts itself.
     pub(super) fn with_conflicting_clocks(self, parting: ClockConflict) -> Self {

@@ -401,7 +401,11 @@ impl Work {
     /// Records whether the text of a column changes between rows with the same key.
     fn note_text(&mut self, place: Place, column: usize, cells: [&[u8]; 2]) {
         let moves = self.layout.values[column].moves;
-        if matches!(moves, Moves::Never | Moves::Back) {
+        // A date or a time of day is a clock, but text of any other kind is none.
+        let is_of_clock = |cell: &[u8]| {
+            cell.iter().all(|sign| sign.is_ascii_digit() || b":.,-/+ TZ".contains(sign))
+        };
+        if moves == Moves::Never || moves == Moves::Back && cells.into_iter().all(is_of_clock) {
             return;
         }
         for cell in cells {

@@ -2,18 +2,31 @@
 //!
 //! A [`TableReader`] skips the byte order mark, blank lines, remarks that begin with `#` or `//`, and up to
 //! [`MAX_ABOVE`] other lines above the header, which the caller recognises. The separator of the cells in the header
-//! (comma, semicolon or tab) is the separator of all rows. A [decoder](Utf8) turns UTF-16 into UTF-8 on the way.
-//! Numbers may have a decimal comma unless commas separate the cells.
+//! (comma, semicolon, tab or spaces) is the separator of all rows. A [decoder](Utf8) turns UTF-16 into UTF-8.
+//! Numbers may have a decimal comma unless commas separate the cells. Rows of numbers without a header have their
+//! heading in the remark above them, or numbers as names. JSON becomes rows. [`TableOptions`] take precedence.
 
 use std::io::{self, BufRead, Read};
 
 use csv::ByteRecord;
 
 mod encoding;
+#[cfg(feature = "serde")]
+mod json;
+mod moment;
 mod number;
+mod options;
+mod unit;
 
 pub use encoding::Utf8;
+#[cfg(feature = "serde")]
+pub(crate) use json::Cells;
+pub use moment::{Course, Moment, median};
 pub use number::{Decimal, number};
+use options::RowFilter;
+pub use options::{TableOptions, Taken, column};
+pub(crate) use unit::words;
+pub use unit::{Heading, Unit};
 
 /// Maximum number of lines above a header, not counting remarks and blank lines.
 pub const MAX_ABOVE: u64 = 16;
@@ -26,7 +39,7 @@ const MAX_HEAD_BYTES: usize = 1 << 22;
 pub(crate) const BUFFER_BYTES: usize = 1 << 20;
 
 /// Options for reading a table.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Reading {
     /// Whether a row may have fewer cells than the header. The caller then checks for the cells that it needs.
     pub short_rows: bool,
@@ -34,6 +47,10 @@ pub struct Reading {
     pub remarks: bool,
     /// Whether a first line that is only a number is already a row. The table is then a list without a header.
     pub lists: bool,
+    /// Whether a first line of several numbers is already a row. The columns then have numbers as names.
+    pub headless: bool,
+    /// What the caller says about the table.
+    pub options: TableOptions,
 }
 
 /// The reason why a table cannot be read, and the line that it is about.
@@ -55,6 +72,23 @@ pub enum TableFault {
     /// The input cannot be read.
     #[error("{0}")]
     Input(io::Error),
+    /// The input is JSON without a table.
+    #[error("{0}")]
+    Json(String),
+    /// A column that the caller names is missing.
+    #[error("no column {name:?}; here are {here}")]
+    NoColumn {
+        /// Name or number of the column.
+        name: String,
+        /// Columns of the table.
+        here: String,
+    },
+    /// There are rows, and the caller's options leave out all of them.
+    #[error("none of the {of} rows is taken; widen --rows, --where, --start or --end")]
+    NoneTaken {
+        /// Number of rows in the table.
+        of: u64,
+    },
     /// A row has more or fewer cells than the header.
     #[error("{}", cells_in_words(*cells, *header))]
     Cells {
@@ -77,39 +111,117 @@ fn cells_in_words(cells: usize, header: usize) -> String {
     }
 }
 
+/// Returns the names in a header, for a message.
+fn names_of(header: &ByteRecord) -> String {
+    let names = header.iter().map(|name| String::from_utf8_lossy(name).trim().to_owned());
+    let names: Vec<String> = names.map(|name| format!("\"{name}\"")).collect();
+    crate::scene::clip_list(names.iter().map(String::as_str))
+}
+
+/// The text of a table: that of the input, or of the JSON in it.
+enum Text<R> {
+    Plain(io::Chain<io::Cursor<Vec<u8>>, R>),
+    #[cfg(feature = "serde")]
+    Whole(io::Cursor<Vec<u8>>),
+    #[cfg(feature = "serde")]
+    Lines(json::Lines<io::Chain<io::Cursor<Vec<u8>>, R>>),
+}
+
+/// Number of bytes by which JSON is recognised.
+const START_BYTES: u64 = 64;
+
+impl<R: BufRead> Text<R> {
+    /// Recognises JSON, and returns whether the table has a header if that is known.
+    fn of(mut input: R) -> Result<(Self, Option<bool>), TableFault> {
+        let mut start = Vec::new();
+        (&mut input).take(START_BYTES).read_to_end(&mut start).map_err(TableFault::Input)?;
+        #[cfg(feature = "serde")]
+        if json::is_json(&start) {
+            let input = io::Cursor::new(start).chain(input);
+            return Ok(match json::convert(input).map_err(TableFault::Json)? {
+                json::Converted::Whole(text, has_header) => {
+                    (Self::Whole(io::Cursor::new(text)), Some(has_header))
+                }
+                json::Converted::Lines(lines) => (Self::Lines(lines), Some(true)),
+            });
+        }
+        Ok((Self::Plain(io::Cursor::new(start).chain(input)), None))
+    }
+
+    fn input(&mut self) -> &mut dyn BufRead {
+        match self {
+            Self::Plain(input) => input,
+            #[cfg(feature = "serde")]
+            Self::Whole(input) => input,
+            #[cfg(feature = "serde")]
+            Self::Lines(input) => input,
+        }
+    }
+
+    /// Number of lines of the text that are not lines of the input.
+    fn own_lines(&self) -> u64 {
+        match self {
+            #[cfg(feature = "serde")]
+            Self::Lines(_) => 1,
+            _ => 0,
+        }
+    }
+}
+
+impl<R: BufRead> Read for Text<R> {
+    fn read(&mut self, bytes: &mut [u8]) -> io::Result<usize> {
+        self.input().read(bytes)
+    }
+}
+
 /// A table, read row by row.
 pub struct TableReader<R> {
-    rows: csv::Reader<Bounded<io::Chain<io::Cursor<Vec<u8>>, R>>>,
+    rows: csv::Reader<Bounded<io::Chain<io::Cursor<Vec<u8>>, Text<R>>>>,
     header: ByteRecord,
-    /// First row of a list, which has no header.
+    /// First row of a table without a header.
     first: Option<ByteRecord>,
     /// Number of lines above the first line of `rows`.
     above: u64,
+    own_lines: u64,
     header_line: u64,
     is_list: bool,
+    is_headless: bool,
     separator: u8,
     reading: Reading,
+    filter: RowFilter,
+    /// Column of the times that limit the rows, the number of its units in a second, and the first time.
+    clock: Option<(usize, f64)>,
+    began: Option<Moment>,
+    there: u64,
+    taken: Option<[u64; 2]>,
 }
 
 impl<R: BufRead> TableReader<R> {
     /// Reads a table up to its header, which is the first line for which `is_header` is true. If there is no such line,
-    /// the first line that is neither blank nor a remark becomes the header.
+    /// the first line that is neither blank nor a remark becomes the header, unless it is a row of numbers.
     ///
     /// # Errors
-    /// If the input cannot be read, has too long a line, or has only blank lines and remarks.
+    /// If the input cannot be read, has too long a line, or has only blank lines and remarks, or if a column of the
+    /// options is missing.
     pub fn begin(
-        mut input: R,
+        input: R,
         reading: Reading,
         is_header: impl Fn(&ByteRecord) -> bool,
     ) -> Result<Self, TableError> {
         let too_long =
             |line| TableError { line, fault: TableFault::Input(io::Error::other(TooLong)) };
+        let at_start = |fault| TableError { line: 1, fault };
+        let (mut input, has_header) = Text::of(input).map_err(at_start)?;
+        let own_lines = input.own_lines();
+        let told = reading.options.separator.filter(|_| has_header.is_none());
         let (mut head, mut starts) = (Vec::new(), Vec::<usize>::new());
-        let (mut first, mut found) = (None, None);
+        let (mut first, mut found, mut remark) = (None, None, None);
         let mut candidates = 0;
-        while candidates <= MAX_ABOVE && found.is_none() {
+        let is_headless = reading.options.no_header || has_header == Some(false);
+        let most = if is_headless || has_header.is_some() { 0 } else { MAX_ABOVE };
+        while candidates <= most && found.is_none() {
             let start = head.len();
-            let read = (&mut input).take(MAX_ROW_BYTES as u64).read_until(b'\n', &mut head);
+            let read = input.input().take(MAX_ROW_BYTES as u64).read_until(b'\n', &mut head);
             let line = starts.len() as u64 + 1;
             read.map_err(|error| TableError { line, fault: TableFault::Input(error) })?;
             if head.len() - start == MAX_ROW_BYTES || head.len() > MAX_HEAD_BYTES {
@@ -120,36 +232,136 @@ impl<R: BufRead> TableReader<R> {
             }
             starts.push(start);
             let text = head[start..].trim_ascii();
-            if text.is_empty() || is_remark(text) {
+            if text.is_empty() {
+                continue;
+            }
+            if is_remark(text) && has_header.is_none() {
+                if first.is_none() {
+                    remark = Some(text.to_vec());
+                }
                 continue;
             }
             let here = starts.len() - 1;
             let is_list = reading.lists && first.is_none() && is_number(text);
-            found = (is_list || is_header(&cells(text))).then_some(here);
+            found = (is_list || is_header(&cells(text, told))).then_some(here);
             first.get_or_insert(here);
             candidates += 1;
         }
-        let at = found.or(first).ok_or(TableError { line: 1, fault: TableFault::Empty })?;
-        let rest = head.split_off(starts[at]);
+        let at = found.or(first).ok_or(at_start(TableFault::Empty))?;
+        let mut rest = head.split_off(starts[at]);
         let end = rest.iter().position(|byte| *byte == b'\n').unwrap_or(rest.len());
         let line = rest[..end].trim_ascii().to_vec();
-        let is_list = reading.lists && is_number(&line);
-        let separator = if is_list { b';' } else { separator(&line) };
+        let is_list = reading.lists && is_number(&line) && !line.contains(&b',') | told.is_none();
+        let is_spaced = |line: &[u8]| !line.contains(&b',') && of_spaces(line).len() > 1;
+        if !is_list && !is_spaced(&line) && rest.len() <= end + 1 && found.is_none() {
+            // A heading of words above cells that spaces separate.
+            let read = input.input().take(MAX_ROW_BYTES as u64).read_until(b'\n', &mut rest);
+            read.map_err(|error| TableError { line: 1, fault: TableFault::Input(error) })?;
+        }
+        let second = rest.get(end + 1..).unwrap_or_default();
+        let second = second.split(|byte| *byte == b'\n').next().unwrap_or_default().trim_ascii();
+        let are_words = of_spaces(&line).len();
+        let is_of_spaces = told.is_none()
+            && ![b',', b';', b'\t'].iter().any(|sign| line.contains(sign))
+            && (are_numbers(&of_spaces(&line)) && are_words > 1
+                || are_words > 1
+                    && are_words == of_spaces(second).len()
+                    && are_numbers(&of_spaces(second)));
+        let separator = match told {
+            Some(separator) => separator,
+            None if is_list => b';',
+            None if is_of_spaces => b' ',
+            None => separator(&line),
+        };
+        let of_line = cells(&line, Some(separator));
+        let is_row = |row: &ByteRecord| are_numbers(&row.iter().collect::<Vec<_>>());
+        let has_no_header = is_headless
+            || is_list
+            || reading.headless && found.is_none() && has_header.is_none() && is_row(&of_line);
+        let heading = remark.filter(|_| has_no_header && !is_headless).and_then(|remark| {
+            let start = remark.iter().position(|byte| !b"#/ ".contains(byte))?;
+            let of = |separator| cells(&remark[start..], Some(separator));
+            let fits = |row: &ByteRecord| {
+                row.len() == of_line.len() && !is_row(row) && (row.len() > 1 || is_header(row))
+            };
+            [separator, b',', b' ', b'\t', b';'].into_iter().map(of).find(fits)
+        });
         let mut rows = csv::ReaderBuilder::new()
             .has_headers(false)
             .flexible(true)
             .delimiter(separator)
             .buffer_capacity(BUFFER_BYTES)
-            .from_reader(Bounded { input: io::Cursor::new(rest).chain(input), in_row: 0 });
+            .from_reader(Bounded {
+                input: io::Cursor::new(rest).chain(input),
+                in_row: 0,
+                gap: (separator == b' ').then_some(true),
+            });
         let mut first = ByteRecord::new();
         let above = at as u64;
         rows.read_byte_record(&mut first).map_err(|error| TableError {
             line: above + 1,
             fault: TableFault::Input(error.into()),
         })?;
-        let (header, first) =
-            if is_list { (ByteRecord::from(vec![""]), Some(first)) } else { (first, None) };
-        Ok(Self { rows, header, first, above, header_line: above + 1, is_list, separator, reading })
+        if separator == b' ' && first.get(first.len().wrapping_sub(1)) == Some(b"") {
+            first.truncate(first.len() - 1);
+        }
+        let is_list = is_list && heading.is_none();
+        let is_headless = has_no_header && heading.is_none() && !is_list;
+        let (header, first) = match heading {
+            Some(heading) => (heading, Some(first)),
+            None if is_list => (ByteRecord::from(vec![""]), Some(first)),
+            None if has_no_header => {
+                let numbers: Vec<String> = (1..=first.len()).map(|n| n.to_string()).collect();
+                (ByteRecord::from(numbers), Some(first))
+            }
+            None => (first, None),
+        };
+        let at_header = |fault| TableError { line: above + 1, fault };
+        let filter = RowFilter::of(&header, &reading.options).map_err(at_header)?;
+        Ok(Self {
+            rows,
+            header,
+            first,
+            above,
+            own_lines,
+            header_line: above + 1,
+            is_list,
+            is_headless,
+            separator,
+            reading,
+            filter,
+            clock: None,
+            began: None,
+            there: 0,
+            taken: None,
+        })
+    }
+
+    /// Takes only rows whose time in this column lies in the window of the options. `unit` is that of the times.
+    pub fn limit_by(&mut self, column: usize, unit: Unit) {
+        self.clock = self.reading.options.has_window().then_some((column, unit.ns()));
+    }
+
+    /// Whether the columns have numbers as names, because there is no header.
+    pub fn is_headless(&self) -> bool {
+        self.is_headless
+    }
+
+    /// Returns the numbers of the first and the last row that were taken, and the number of rows up to now.
+    pub fn taken(&self) -> ([u64; 2], u64) {
+        (self.taken.unwrap_or([0, 0]), self.there)
+    }
+
+    /// Counts the rows that remain, without taking them, and returns the number of all rows.
+    pub fn count_rest(&mut self) -> u64 {
+        let mut row = ByteRecord::new();
+        loop {
+            self.rows.get_mut().in_row = 0;
+            match self.rows.read_byte_record(&mut row) {
+                Ok(true) => self.there += 1,
+                _ => return self.there,
+            }
+        }
     }
 
     /// Returns the names of the columns. A list has one column with an empty name.
@@ -172,28 +384,67 @@ impl<R: BufRead> TableReader<R> {
         if self.separator == b',' { Decimal::Point } else { Decimal::PointOrComma }
     }
 
-    /// Reads the next row and returns its line number, or `None` after the last row. Skips blank lines, and skips
-    /// remarks if [`Reading::remarks`] is set.
+    /// Reads the next row that the options take and returns its line number, or `None` after the last row. Skips blank
+    /// lines, and skips remarks if [`Reading::remarks`] is set.
     ///
     /// # Errors
-    /// If the row cannot be read, or if it has too many or too few cells for the header.
+    /// If the row cannot be read, if it has too many or too few cells for the header, or if the options take no row.
     pub fn next(&mut self, row: &mut ByteRecord) -> Result<Option<u64>, TableError> {
+        loop {
+            let line = self.next_of_all(row)?;
+            let Some(found) = line else {
+                let of = self.there;
+                if of > 0 && self.taken.is_none() {
+                    let fault = TableFault::NoneTaken { of };
+                    return Err(TableError { line: self.header_line, fault });
+                }
+                return Ok(None);
+            };
+            self.there += 1;
+            if !self.filter.takes(self.there, row, self.decimal()) || !self.is_in_window(row) {
+                if self.filter.ends_before(self.there) && self.taken.is_some() {
+                    self.count_rest();
+                    return Ok(None);
+                }
+                continue;
+            }
+            let first = self.taken.map_or(self.there, |[first, _]| first);
+            self.taken = Some([first, self.there]);
+            return Ok(Some(found));
+        }
+    }
+
+    fn is_in_window(&mut self, row: &ByteRecord) -> bool {
+        let Some((column, ns)) = self.clock else { return true };
+        let cell = row.get(column).unwrap_or_default();
+        let Some(moment) = Moment::read(cell, self.decimal()) else { return true };
+        let ns = if moment.is_of_calendar { 1.0 } else { ns };
+        let since_s = moment.since(*self.began.get_or_insert(moment)) * ns / 1e9;
+        let [start, end] = self.reading.options.window_s;
+        since_s >= start.unwrap_or(f64::NEG_INFINITY) && since_s < end.unwrap_or(f64::INFINITY)
+    }
+
+    fn next_of_all(&mut self, row: &mut ByteRecord) -> Result<Option<u64>, TableError> {
         if let Some(first) = self.first.take() {
             *row = first;
             return Ok(Some(self.header_line));
         }
         loop {
             self.rows.get_mut().in_row = 0;
-            let line = self.above + self.rows.position().line();
+            let above = self.above;
+            let line = above + self.rows.position().line() - self.own_lines;
             let read = self.rows.read_byte_record(row);
             let is_there = read.map_err(|error| TableError {
-                line: self.above + error.position().map_or(line, csv::Position::line),
+                line: error.position().map_or(line, |at| above + at.line() - self.own_lines),
                 fault: TableFault::Input(error.into()),
             })?;
             if !is_there {
                 return Ok(None);
             }
-            let line = self.above + row.position().map_or(line, csv::Position::line);
+            if self.separator == b' ' && row.len() > 1 && row.get(row.len() - 1) == Some(b"") {
+                row.truncate(row.len() - 1);
+            }
+            let line = row.position().map_or(line, |at| above + at.line() - self.own_lines);
             let (cells, header) = (row.len(), self.header.len());
             let first = row.get(0).unwrap_or_default().trim_ascii_start();
             // A line of several cells may be a row about an object whose name begins with `#`.
@@ -236,12 +487,28 @@ fn is_number(line: &[u8]) -> bool {
     number(line, Decimal::PointOrComma).is_some()
 }
 
-fn cells(line: &[u8]) -> ByteRecord {
+fn cells(line: &[u8], told: Option<u8>) -> ByteRecord {
+    let separator = told.unwrap_or_else(|| separator(line));
+    if separator == b' ' {
+        return ByteRecord::from(of_spaces(line));
+    }
     let mut row = ByteRecord::new();
     let mut builder = csv::ReaderBuilder::new();
-    let mut reader = builder.has_headers(false).delimiter(separator(line)).from_reader(line);
+    let mut reader = builder.has_headers(false).delimiter(separator).from_reader(line);
     drop(reader.read_byte_record(&mut row));
     row
+}
+
+/// Returns the cells of a line that spaces and tabs separate.
+fn of_spaces(line: &[u8]) -> Vec<&[u8]> {
+    line.split(u8::is_ascii_whitespace).filter(|cell| !cell.is_empty()).collect()
+}
+
+/// Whether all cells are numbers, apart from one after the last separator.
+fn are_numbers(cells: &[&[u8]]) -> bool {
+    let cells = cells.strip_suffix(&[b"" as &[u8]]).unwrap_or(cells);
+    let is_moment = |cell: &&[u8]| Moment::read(cell, Decimal::PointOrComma).is_some();
+    !cells.is_empty() && cells.iter().all(is_moment)
 }
 
 /// Returns the separator of a header's cells, which is the most frequent of the three. The comma wins a tie. A header
@@ -257,6 +524,8 @@ struct Bounded<R> {
     input: R,
     /// Bytes read since the row began.
     in_row: usize,
+    /// If spaces separate the cells, whether the last byte was one. Runs of spaces and tabs become one space.
+    gap: Option<bool>,
 }
 
 impl<R: Read> Read for Bounded<R> {
@@ -264,9 +533,23 @@ impl<R: Read> Read for Bounded<R> {
         if self.in_row >= MAX_ROW_BYTES {
             return Err(io::Error::other(TooLong));
         }
-        let read = self.input.read(bytes)?;
-        self.in_row += read;
-        Ok(read)
+        loop {
+            let read = self.input.read(bytes)?;
+            self.in_row += read;
+            let Some(gap) = self.gap.as_mut().filter(|_| read > 0) else { return Ok(read) };
+            let mut kept = 0;
+            for at in 0..read {
+                let byte = if bytes[at] == b'\t' { b' ' } else { bytes[at] };
+                if byte != b' ' || !*gap {
+                    bytes[kept] = byte;
+                    kept += 1;
+                }
+                *gap = b" \n".contains(&byte);
+            }
+            if kept > 0 {
+                return Ok(kept);
+            }
+        }
     }
 }
 
@@ -278,57 +561,4 @@ impl<R: Read> Read for Bounded<R> {
 struct TooLong;
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// Returns the header, its line, and the rows with their lines.
-    fn read(text: &str, reading: Reading, known: &str) -> (Vec<String>, u64, Vec<(u64, String)>) {
-        let of = |record: &ByteRecord| -> Vec<String> {
-            record.iter().map(|cell| String::from_utf8_lossy(cell).into_owned()).collect()
-        };
-        let is_header = |row: &ByteRecord| row.iter().any(|cell| cell == known.as_bytes());
-        let mut table = TableReader::begin(text.as_bytes(), reading, is_header).unwrap();
-        let (header, line) = (of(table.header()), table.header_line());
-        let (mut rows, mut row) = (Vec::new(), ByteRecord::new());
-        while let Some(line) = table.next(&mut row).unwrap() {
-            rows.push((line, of(&row).join("|")));
-        }
-        (header, line, rows)
-    }
-
-    #[test]
-    fn a_header_is_found_below_remarks_and_headings_with_any_separator() {
-        for separator in [",", ";", "\t"] {
-            let text = "# made by x\n\n// and y\nMachine:A\nos,cpu\nt,x\n0,1.5\n# later\n1,2\n"
-                .replace(',', separator);
-            let remarks = Reading { remarks: true, ..Reading::default() };
-            let (header, line, rows) = read(&text, remarks, "x");
-            assert_eq!((header.join("|").as_str(), line), ("t|x", 6), "{separator:?}");
-            assert_eq!(rows, [(7, "0|1.5".to_owned()), (9, "1|2".to_owned())]);
-        }
-    }
-
-    #[test]
-    fn quotes_short_rows_and_lists_are_read_on_request() {
-        let short = Reading { short_rows: true, ..Reading::default() };
-        let (.., rows) = read("x,name\n1,\"a, b\"\n2\n", short, "x");
-        assert_eq!(rows, [(2, "1|a, b".to_owned()), (3, "2".to_owned())]);
-        let lists = Reading { lists: true, ..Reading::default() };
-        let (header, line, rows) = read("# times\n16,7\n16.6\n", lists, "x");
-        assert_eq!((header, line), (vec![String::new()], 2));
-        assert_eq!(rows, [(2, "16,7".to_owned()), (3, "16.6".to_owned())]);
-        let begun = TableReader::begin("a,b\n1\n".as_bytes(), Reading::default(), |_| true);
-        let error = begun.unwrap().next(&mut ByteRecord::new()).unwrap_err();
-        assert!(error.line == 2 && error.to_string().contains("1 of the header's 2"), "{error}");
-    }
-
-    #[test]
-    fn an_empty_file_is_a_fault_and_an_unknown_header_is_the_first_line() {
-        for text in ["", "\n\n", "# only a remark\n"] {
-            let begun = TableReader::begin(text.as_bytes(), Reading::default(), |_| true);
-            assert!(matches!(begun.map(|_| ()).unwrap_err().fault, TableFault::Empty), "{text:?}");
-        }
-        let (header, line, rows) = read("a,b\n1,2\n", Reading::default(), "x");
-        assert_eq!((header.join("|").as_str(), line, rows.len()), ("a|b", 1, 1));
-    }
-}
+mod tests;

@@ -20,7 +20,7 @@ use decision::{Decision, NO_FIT, decide, rounding};
 pub use effective::Effective;
 pub(crate) use effective::SLOW;
 use fit::{Fit, fit};
-pub use logged::{ColumnNames, Log, LogError, LogRow, LogSetting, LoggedBody};
+pub use logged::{Log, LogError, LogRow, LogSetting, LoggedBody};
 pub(crate) use motion::run;
 pub use swing::FittedSwing;
 use swing::fitted_swing;
@@ -82,6 +82,8 @@ pub struct Identification {
     /// Signed distance of the last row from the exact motion of the same start, in metres, and the row's time in
     /// seconds. `None` if no method was identified.
     pub from_exact: Option<(f64, f64)>,
+    /// Why the rows count as ticks although their times are uneven, with the row that is late.
+    pub rows_are_ticks: Option<String>,
     /// The nearest damped swing, if the method is unknown.
     pub swing: Option<FittedSwing>,
     /// The motion that a player sees. `None` if it resembles neither a damped spring nor a body approaching its last
@@ -103,8 +105,20 @@ const NO_SWING: f64 = 0.2;
 /// rest is fitted only if no method fits with the rest at 0. If x alone does not decide, a start at rest is assumed,
 /// provided that this assumption decides.
 ///
+/// Rows that step alike whatever their times count as ticks.
+///
 /// Returns `None` if no method can run on the body and no swing is near.
 pub fn identify(log: &Log, body: &LoggedBody, tick_hz: f64) -> Option<Identification> {
+    if let Some((ticks, late)) = log.as_ticks() {
+        let found = identify(&ticks, body, tick_hz);
+        let found = found.filter(|found| found.conclusion != Conclusion::Unknown);
+        if let Some(found) = found {
+            return Some(Identification {
+                rows_are_ticks: Some(late.unwrap_or_default()),
+                ..found
+            });
+        }
+    }
     let swing = fitted_swing(log, body).filter(|swing| swing.residual <= NO_SWING);
     if log.is_uneven() {
         return Some(Identification::of_swing(swing?, body, tick_hz));
@@ -166,6 +180,7 @@ fn identify_with(
         rest: body.rest.unwrap_or(0.0),
         is_rest_fitted,
         supposes_start_at_rest: false,
+        rows_are_ticks: None,
         from_exact: is_identified.then(|| from_exact(log, best_fit, tick_s)).flatten(),
         swing,
         effective,
@@ -199,6 +214,7 @@ impl Identification {
             rest: swing.rest,
             is_rest_fitted: body.rest.is_none(),
             supposes_start_at_rest: false,
+            rows_are_ticks: None,
             from_exact: None,
             swing: Some(swing),
             effective: Some(swing.seen),

@@ -6,6 +6,7 @@ use std::time::Instant;
 use regatta::loops::trace_file::read;
 use regatta::loops::{Frame, FrameTrace, Pacer, TimeBase, policy};
 
+mod bounds;
 mod logs;
 
 const FILES: [&str; 6] = [
@@ -320,7 +321,7 @@ fn every_fault_is_named_with_its_line_and_a_remedy() {
         ),
         (
             "Application,msBetweenDisplayChange\na,1\n".into(),
-            "log:1: the columns MsBetweenPresents, alone or with MsBetweenDisplayChange, FrameTime and DisplayedTime, MangoHud's fps and frametime, Unreal's FrameTime, or FRAPS's Time (ms) are needed, and here are Application, msBetweenDisplayChange; write a row for each frame under a header, or frame times in milliseconds alone, one a line".into(),
+            "log:1: the columns MsBetweenPresents, alone or with MsBetweenDisplayChange, FrameTime and DisplayedTime, MangoHud's fps and frametime, Unreal's FrameTime, or FRAPS's Time (ms) are needed, and here are Application, msBetweenDisplayChange; name the column of frame times with --frame-column or that of a running clock with --clock-column, or write frame times in milliseconds alone, one a line".into(),
         ),
         (row("1"), "log:3: the row has 1 of the header's first 2 cells; take it out if it was cut off".into()),
         (
@@ -408,7 +409,7 @@ fn a_mangohud_log_is_read_below_its_machine_description() {
     }
     // PresentMon 2 has no display times when it is set to track none.
     let [trace] = &traces("log", "FrameTime,CPUBusy\n16,3\n17,3\n")[..] else { panic!("one") };
-    assert!(trace.summary().unwrap().ends_with("(PresentMon 2)") && trace.has_one_clock());
+    assert!(trace.summary().unwrap().contains("(PresentMon 2)") && trace.has_one_clock());
     let far = format!("{}fps,frametime\n60,16\n", "a remark\n".repeat(17));
     assert!(read("log", &far).err().unwrap().to_string().starts_with("log:1: the columns"));
 }

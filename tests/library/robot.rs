@@ -6,7 +6,8 @@ use regatta::loops::trace_file;
 use regatta::run::Race;
 use regatta::scene::{Action, SCENES, Scene};
 use regatta::studio::{RunCommand, Studio};
-use regatta::tools::identify::{ColumnNames, Log};
+use regatta::table::TableOptions;
+use regatta::tools::identify::Log;
 
 use super::bad_scenes::check_places;
 use super::dice::Dice;
@@ -73,7 +74,7 @@ fn targets() -> Vec<Target> {
             files: logs.map(first_lines).into(),
             read: |bytes, _| {
                 let text = String::from_utf8_lossy(bytes);
-                Log::parse("log.csv", &text, &ColumnNames::default(), 60.0).is_ok()
+                Log::parse("log.csv", &text, &TableOptions::default(), 60.0).is_ok()
             },
             refused_per_mille: 50..990,
         },

@@ -2,6 +2,7 @@
 
 use serde_json::{Value, json};
 
+use crate::commands::table_args::taken_object;
 use crate::sim::integrators::Method;
 use crate::sim::number::significant;
 use crate::tools::identify::{
@@ -17,7 +18,7 @@ const HINT: &str = "give --k, --c, --drag and --mass to their last digit, with t
 (Jolt 0.05, Godot 0.1)";
 
 /// Returns the identification as JSON. `found` is `None` if no method can run on the body.
-pub(super) fn object(found: Option<&Identification>, mass: f64) -> Value {
+pub(super) fn object(found: Option<&Identification>, log: &Log, mass: f64) -> Value {
     let best = found.and_then(|found| found.best);
     let rival = found.and_then(|found| found.runner_up);
     let effective = found.and_then(|found| found.effective);
@@ -51,6 +52,8 @@ pub(super) fn object(found: Option<&Identification>, mass: f64) -> Value {
         "runner_up_substeps": rival.map(|other| other.candidate.substeps),
         "runner_up_residual": rival.map(|other| other.residual),
         "rest_m": found.map(|found| found.rest),
+        "rows_are_ticks": found.map(|found| found.rows_are_ticks.is_some()),
+        "read": taken_object(log.taken()),
         "supposes_start_at_rest": found.map(|found| found.supposes_start_at_rest),
         "from_exact_m": found.and_then(|found| found.from_exact).map(|(far, _)| far),
         "swing": found.and_then(|found| found.swing).map(|swing| json!({
@@ -220,6 +223,10 @@ pub(super) fn report_text(found: &Identification, log: &Log, mass: f64) -> Strin
     let best = found.best.as_ref().map(|best| &best.candidate);
     let makers = best.map(|best| makers(best, &found.also)).unwrap_or_default();
     let mut lines = vec![verdict(found, log)];
+    if let Some(late) = &found.rows_are_ticks {
+        let late = if late.is_empty() { String::new() } else { format!(" ({late})") };
+        lines.push(format!("the rows step alike whatever their times{late}, so they are ticks"));
+    }
     if *conclusion == Conclusion::Unknown && !log.is_uneven() {
         lines.push(HINT.to_owned());
     }

@@ -4,7 +4,9 @@ use serde_json::{Map, Value, json};
 
 use super::{Drive, PortedEngine};
 use crate::commands::output::table::TableFormat;
+use crate::commands::table_args::taken_object;
 use crate::sim::number::{round, significant};
+use crate::table::Taken;
 use crate::tools::identify::Effective;
 use crate::tools::port::{
     Approach, Departure, DriveLimits, FollowerPort, Friction, GainRange, PortOutcome, Ported,
@@ -50,7 +52,7 @@ fn wish_line(wish: &Wish, tick_hz: f64) -> String {
     format!("{hz} Hz, damping ratio {ratio}, {} kg, at {tick_hz} ticks per second\n", wish.mass_kg)
 }
 
-fn object(wish: &Wish, tick_hz: f64, rows: Value) -> String {
+fn object((wish, tick_hz, read): (&Wish, f64, Option<&Taken>), rows: Value) -> String {
     let mut object = json!({
         "want": {
             "frequency_hz": wish.frequency_hz,
@@ -60,14 +62,14 @@ fn object(wish: &Wish, tick_hz: f64, rows: Value) -> String {
         "tick_hz": tick_hz,
     });
     let Value::Object(rows) = rows else { unreachable!("rows have names") };
-    object.as_object_mut().expect("it is one").extend(rows);
+    let read = read.map(|taken| ("read".to_owned(), taken_object(taken)));
+    object.as_object_mut().expect("it is one").extend(rows.into_iter().chain(read));
     format!("{object:#}\n")
 }
 
-/// Returns the settings of every engine, and those of these user interfaces.
+/// Returns the settings of every engine, and those of these user interfaces. `read` is what was read of a log.
 pub(super) fn springs(
-    wish: &Wish,
-    tick_hz: f64,
+    (wish, tick_hz, read): (&Wish, f64, Option<&Taken>),
     all: &[PortedEngine],
     dialects: &[&UiSpring],
     format: TableFormat,
@@ -78,7 +80,7 @@ pub(super) fn springs(
             let engines: Vec<Value> = all.iter().map(row).collect();
             let dialects: Vec<Value> =
                 dialects.map(|(it, port)| ui_spring_row(it, &port)).collect();
-            object(wish, tick_hz, json!({ "engines": engines, "dialects": dialects }))
+            object((wish, tick_hz, read), json!({ "engines": engines, "dialects": dialects }))
         }
         TableFormat::Text => {
             let engines = all.iter().map(|engine| engine_text(wish, engine));
@@ -212,7 +214,11 @@ fn miss_note(wish: &Wish, ported: &Ported) -> Option<String> {
     }
 }
 
-pub(super) fn drives(wish: &Wish, tick_hz: f64, all: &[Drive], format: TableFormat) -> String {
+pub(super) fn drives(
+    (wish, tick_hz, read): (&Wish, f64, Option<&Taken>),
+    all: &[Drive],
+    format: TableFormat,
+) -> String {
     let mass = wish.mass_kg;
     let [kp, kv] = wish.joint().map(|gain| gain * mass);
     match format {
@@ -234,7 +240,7 @@ pub(super) fn drives(wish: &Wish, tick_hz: f64, all: &[Drive], format: TableForm
                 })
             };
             let rows = all.iter().flat_map(|d| d.limits.iter().map(move |limits| row(d, limits)));
-            object(wish, tick_hz, json!({ "drives": rows.collect::<Vec<_>>() }))
+            object((wish, tick_hz, read), json!({ "drives": rows.collect::<Vec<_>>() }))
         }
         TableFormat::Text => {
             let gains = format!("kp {} N/m, kv {} N s/m\n", round(kp, 6), round(kv, 6));

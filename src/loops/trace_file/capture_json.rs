@@ -10,26 +10,13 @@ use serde::de::{DeserializeSeed, Deserializer, Error, IgnoredAny, MapAccess, Seq
 use super::columns::known_names;
 use super::{Fault, MAX_FRAMES};
 use crate::scene::truncate;
+use crate::table::Cells;
 
 /// Name of the array that every capture has.
 const FRAMES: &str = "MsBetweenPresents";
 
 /// Maximum number of characters of a program's name, which is in every row of the table.
 const MAX_NAME_CHARS: usize = 200;
-
-/// The cells of a column, one after the other, and the end of each.
-#[derive(Clone, Default)]
-struct Cells {
-    text: String,
-    ends: Vec<u32>,
-}
-
-impl Cells {
-    fn get(&self, row: usize) -> &str {
-        let start = row.checked_sub(1).map_or(0, |before| self.ends[before]);
-        &self.text[start as usize..self.ends[row] as usize]
-    }
-}
 
 /// A column of a run, with its number among the known names.
 type Column = (usize, Cells);

@@ -3,8 +3,10 @@
 use csv::StringRecord;
 
 use super::Fault;
-use super::durations::{self, Unit};
+use super::durations::{self, Unreadable};
+use super::{Survey, android};
 use crate::scene::{clip, clip_list};
+use crate::table::{Decimal, Heading, Moment, TableOptions, Unit};
 
 /// Whether a row's time ends or starts at its frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -17,7 +19,8 @@ pub(super) enum Span {
 
 /// Known formats: the tool, the span of a row, the column of frame times, and a column that must occur beside it. Each
 /// column name also matches without its `Ms`.
-const FORMATS: [(&str, Span, &str, CompanionColumn); 9] = [
+const FORMATS: [(&str, Span, &str, CompanionColumn); 10] = [
+    (ANDROID, Span::Before, android::BEGAN, CompanionColumn::Display(android::DISPLAYED)),
     (PRESENTMON, Span::Before, "MsBetweenPresents", CompanionColumn::Until("MsUntilDisplayed")),
     (
         PRESENTMON,
@@ -91,27 +94,44 @@ enum CompanionColumn {
 }
 
 /// Words in the heading of a list of frame times.
-const OF_LIST: [&str; 5] = ["frame", "frametime", "dt", "delta", "deltatime"];
-/// Names of a column of frame times in a table.
-const OF_TABLE: [&str; 8] = [
+const OF_LIST: [&str; 7] =
+    ["frame", "frametime", "dt", "delta", "deltatime", "interval", "duration"];
+/// Names of a column of frame times in a table, without its unit.
+const OF_TABLE: [&str; 13] = [
     "frametime",
     "frame time",
-    "frame_time",
-    "frame-time",
     "deltatime",
     "delta time",
-    "delta_time",
     "dt",
+    "frame duration",
+    "frame interval",
+    "frame delta",
+    "present interval",
+    "frame",
+    "delta",
+    "interval",
+    "duration",
 ];
-/// Words for the unit in the name of such a column.
-const UNITS: [(&str, Unit); 6] = [
-    ("s", Unit::Seconds),
-    ("sec", Unit::Seconds),
-    ("seconds", Unit::Seconds),
-    ("ms", Unit::Milliseconds),
-    ("us", Unit::Microseconds),
-    ("µs", Unit::Microseconds),
+/// The names among them that say something else without a unit.
+const WITH_UNIT: [&str; 4] = ["frame", "delta", "interval", "duration"];
+/// Names of a running clock, without its unit. A unit alone may also name frame times.
+const CLOCKS: [&str; 12] = [
+    "time",
+    "t",
+    "timestamp",
+    "clock",
+    "elapsed",
+    "time stamp",
+    "elapsed time",
+    "game time",
+    "sim time",
+    "seconds",
+    "ms",
+    "now",
 ];
+
+/// Number of rising frame times that are those of a clock. Fewer may rise by chance.
+const MIN_RISING: u64 = 10;
 
 /// PresentMon's types for frames that the program rendered, or whose origin is unknown. Frames of all other types are
 /// generated or repeated.
@@ -125,6 +145,8 @@ pub(super) struct Columns {
     pub(super) unit: Option<Unit>,
     span: Span,
     began: Column,
+    /// Whether rows record when a frame began instead of the time since the previous frame.
+    is_clock: bool,
     displayed: Option<Column>,
     /// Whether display times count from the frame's own beginning.
     is_until: bool,
@@ -149,30 +171,38 @@ const LIST: &str = "a list";
 const OLD_MANGOHUD: &str = "MangoHud before 0.6";
 /// The tool whose rows record when a frame began instead of the time since the previous frame.
 const FRAPS: &str = "FRAPS";
+/// Android's own records of frames, whose begin and display are moments of one clock.
+const ANDROID: &str = "Android";
 
 /// Returns the column of frame times in a list with a heading or in a table, and its unit if the name gives one.
-fn of_list(header: &StringRecord) -> Option<(Column, Option<Unit>)> {
+fn of_list(header: &StringRecord) -> Option<Result<(Column, Option<Unit>), Fault>> {
     let of = |(index, name): (usize, &str)| {
         let name = name.trim();
-        let lower = name.to_lowercase();
-        let words: Vec<&str> = lower.split(|c: char| !c.is_alphabetic()).collect();
+        let heading = Heading::of(name);
         let is_plain = |sign: char| sign.is_alphanumeric() || "_ ()[].".contains(sign);
         let is_named = match header.len() {
-            1 => words.iter().any(|word| OF_LIST.contains(word)) && name.chars().all(is_plain),
+            1 => {
+                heading.base.split(' ').any(|word| OF_LIST.contains(&word))
+                    && name.chars().all(is_plain)
+            }
             // In a table, the whole name must match.
-            _ => OF_TABLE.iter().any(|known| lower.strip_prefix(known).is_some_and(is_unit)),
+            _ => {
+                OF_TABLE.contains(&&*heading.base)
+                    && (heading.unit.is_some() || !WITH_UNIT.contains(&&*heading.base))
+            }
         };
-        let unit =
-            UNITS.iter().find(|(known, _)| words[1..].contains(known)).map(|(_, unit)| *unit);
-        is_named.then(|| (Column { index, name: name.to_owned() }, unit))
+        let column = Column { index, name: name.to_owned() };
+        is_named.then(|| unit_of(heading, name).map(|unit| (column, unit)))
     };
     header.iter().enumerate().find_map(of)
 }
 
-/// Whether the rest of a name is empty or a unit.
-fn is_unit(rest: &str) -> bool {
-    let letters = rest.trim_matches(|c: char| !c.is_alphabetic());
-    letters.is_empty() || UNITS.iter().any(|(known, _)| *known == letters)
+/// Returns the unit of a heading, or a fault if the heading gives one that is not known.
+fn unit_of(heading: Heading, name: &str) -> Result<Option<Unit>, Fault> {
+    match heading.unknown {
+        Some(unit) => Err(Fault::UnknownUnit { column: clip(name), unit: clip(&unit) }),
+        None => Ok(heading.unit),
+    }
 }
 
 struct Column {
@@ -197,6 +227,8 @@ pub(super) struct Cells<'a> {
     pub(super) is_until: bool,
     /// Frames per second in the same row.
     pub(super) fps: Option<f64>,
+    /// When the frame began, in a log of a clock.
+    pub(super) moment: Option<Moment>,
     /// The log's own time in nanoseconds.
     pub(super) time_ns: Option<f64>,
     /// Time from the frame's beginning to its display in nanoseconds, in a log that also has the times between
@@ -228,15 +260,16 @@ impl Columns {
                 };
                 let unit = match *format {
                     MANGOHUD => None,
-                    OLD_MANGOHUD => Some(Unit::Nanoseconds),
+                    OLD_MANGOHUD | ANDROID => Some(Unit::Nanoseconds),
                     _ => Some(Unit::Milliseconds),
                 };
                 Some((*format, unit, *span, column(began)?, (displayed, is_until)))
             };
-        let found = FORMATS.iter().find_map(times).or_else(|| {
-            let (began, unit) = of_list(header)?;
-            Some((LIST, unit, Span::Before, began, (None, false)))
-        });
+        let mut found = FORMATS.iter().find_map(times);
+        if found.is_none() {
+            let list = of_list(header).transpose()?;
+            found = list.map(|(began, unit)| (LIST, unit, Span::Before, began, (None, false)));
+        }
         let Some((format, unit, span, began, (displayed, is_until))) = found else {
             let found = clip_list(header.iter().map(str::trim));
             return Err(Fault::Columns { found });
@@ -255,9 +288,10 @@ impl Columns {
             unit,
             span,
             time: time.filter(|(index, ..)| *index != began.index),
+            is_clock: [FRAPS, OLD_MANGOHUD, ANDROID].contains(&format),
+            is_until: is_until || format == ANDROID,
             began,
             displayed,
-            is_until,
             fps: index("fps"),
             until,
             dropped: column("Dropped"),
@@ -268,14 +302,14 @@ impl Columns {
         })
     }
 
-    /// Returns the columns of a list of frame times.
-    pub(super) fn of_list() -> Self {
-        let began = Column { index: 0, name: "1".into() };
+    /// Returns the columns of a list of frame times or of a clock, in this column.
+    pub(super) fn of_list(index: usize, name: &str, unit: Option<Unit>, is_clock: bool) -> Self {
         Self {
             format: LIST,
-            unit: None,
+            unit,
             span: Span::Before,
-            began,
+            began: Column { index, name: name.trim().to_owned() },
+            is_clock,
             displayed: None,
             is_until: false,
             fps: None,
@@ -289,6 +323,97 @@ impl Columns {
         }
     }
 
+    /// Chooses the columns by what the caller says, by the names in the header, and by how the numbers go.
+    pub(super) fn choose(
+        header: &StringRecord,
+        survey: &Survey,
+        options: &TableOptions,
+    ) -> Result<Self, Fault> {
+        let names = header.as_byte_record();
+        let named = [(options.frame.as_deref(), false), (options.time(), true)];
+        for (name, is_clock) in named {
+            let Some(name) = name else { continue };
+            let absent = || {
+                let found = clip_list(header.iter().map(str::trim));
+                Fault::NoColumn { name: clip(name), found }
+            };
+            let index = crate::table::column(names, name).ok_or_else(absent)?;
+            let unit = unit_of(Heading::of(&header[index]), &header[index])?;
+            return Ok(Self::of_list(index, &header[index], unit, is_clock));
+        }
+        let courses = &survey.courses;
+        let rises = |index: usize| courses.get(index).is_some_and(|it| it.rises() && !it.counts());
+        if survey.is_headless {
+            let clock = (0..header.len()).find(|index| rises(*index));
+            let counts = |index: &usize| courses.get(*index).is_some_and(|it| it.counts());
+            let frames = || (0..header.len()).find(|index| !counts(index));
+            let index = clock.or_else(frames).unwrap_or(0);
+            return Ok(Self::of_list(index, &format!("{}", index + 1), None, clock.is_some()));
+        }
+        let is_there = |(index, name): (usize, _)| {
+            let is_untracked =
+                survey.is_missing(index) && str::to_lowercase(name).contains("display");
+            if is_untracked { "" } else { name }
+        };
+        let known: StringRecord = header.iter().enumerate().map(is_there).collect();
+        let found = match Self::find(&known) {
+            // A time of frames that rises through all rows is that of a clock.
+            Ok(list) if list.is_list() && rises(list.began.index) => {
+                let is_long = courses[list.began.index].count >= MIN_RISING;
+                return Ok(Self { is_clock: is_long, fps: None, ..list });
+            }
+            Err(fault @ Fault::Columns { .. }) => Err(fault),
+            found => return found,
+        };
+        let clock = |(index, name): (usize, &str)| {
+            let heading = Heading::of(name);
+            let is_named = CLOCKS.contains(&&*heading.base)
+                || heading.unit.is_some() && !heading.base.contains(' ');
+            let is_alone = Unit::of_word(&heading.base).is_some() || header.len() == 1;
+            (is_named && (rises(index) || is_alone)).then_some((index, heading))
+        };
+        match header.iter().enumerate().find_map(clock) {
+            Some((index, heading)) => {
+                let unit = unit_of(heading, &header[index])?;
+                Ok(Self::of_list(index, &header[index], unit, rises(index)))
+            }
+            None => found,
+        }
+    }
+
+    /// Whether the columns may be those of a header, so that it is the one of the table.
+    pub(super) fn may_be_of(header: &StringRecord, options: &TableOptions) -> bool {
+        let named = [options.frame.as_deref(), options.time()].into_iter().flatten().next();
+        match named {
+            Some(name) => header.iter().any(|cell| cell.trim() == name.trim()),
+            None => !matches!(Self::find(header), Err(Fault::Columns { .. })),
+        }
+    }
+
+    /// Returns the columns that are read, by their index.
+    pub(super) fn used(&self) -> Vec<usize> {
+        let columns = [Some(&self.began), self.displayed.as_ref(), self.dropped.as_ref()];
+        let columns = columns.into_iter().flatten().map(|column| column.index);
+        let texts = [self.frame_type, self.application, self.process, self.swap_chain, self.until];
+        let times = [self.fps, self.time.map(|(index, ..)| index)];
+        columns.chain(texts.into_iter().chain(times).flatten()).collect()
+    }
+
+    /// Returns the index of the column of frame times or of the clock.
+    pub(super) fn began_at(&self) -> usize {
+        self.began.index
+    }
+
+    /// Whether no tool that is known wrote the log.
+    pub(super) fn is_list(&self) -> bool {
+        self.format == LIST
+    }
+
+    /// Whether the log has MangoHud's rows, whose first may count from the machine's start.
+    pub(super) fn is_of_mangohud(&self) -> bool {
+        self.format == MANGOHUD
+    }
+
     /// Whether frames begin and are displayed by one clock.
     pub(super) fn has_one_clock(&self) -> bool {
         self.is_until
@@ -296,7 +421,7 @@ impl Columns {
 
     /// Whether rows record when a frame began instead of the time since the previous frame.
     pub(super) fn is_since_start(&self) -> bool {
-        [FRAPS, OLD_MANGOHUD].contains(&self.format)
+        self.is_clock
     }
 
     /// Whether the unit of the log's own time is certain.
@@ -306,13 +431,15 @@ impl Columns {
 
     /// Whether the time in the first row is the duration of a logged frame.
     pub(super) fn counts_first(&self) -> bool {
-        [LIST, MANGOHUD].contains(&self.format)
+        [LIST, MANGOHUD].contains(&self.format) && !self.is_clock
     }
 
     /// Whether the frames end before this row. Unreal repeats the header at the end and describes the build there.
     pub(super) fn end_before(&self, row: &StringRecord) -> bool {
         let is_of_build = row.get(0).is_some_and(|cell| cell.trim_start().starts_with('['));
-        is_of_build || row.get(self.began.index).is_some_and(|cell| cell.trim() == self.began.name)
+        let is_name = self.began.name.parse::<f64>().is_err();
+        let is_header = |cell: &str| is_name && cell.trim() == self.began.name;
+        is_of_build || row.get(self.began.index).is_some_and(is_header)
     }
 
     /// Whether the log has display times.
@@ -337,8 +464,17 @@ impl Columns {
         }
         let text = |index: Option<usize>| index.map_or("", |index| row[index].trim());
         let dropped = self.dropped.as_ref().map(|column| column.flag(row)).transpose()?;
-        let began_ns = self.began.time(row, unit)?;
+        let moment = if self.is_clock { self.began.moment(row)? } else { None };
+        let began_ns = match self.is_clock {
+            true => moment.map(|_| 0),
+            false => self.began.time(row, unit)?,
+        };
         let displayed_ns = match &self.displayed {
+            Some(column) if self.is_clock => {
+                let until =
+                    column.moment(row)?.zip(moment).map(|(shown, began)| shown.since(began));
+                until.map(|until| (until * unit.ns()).round() as i64).filter(|until| *until >= 0)
+            }
             Some(column) => column.time(row, unit)?,
             None => began_ns,
         };
@@ -355,6 +491,7 @@ impl Columns {
             began_ns: began_ns.ok_or_else(|| Fault::NoTime { column: self.began.name.clone() }),
             is_until: self.is_until,
             fps: number(self.fps),
+            moment,
             time_ns: self.time.and_then(|(index, ns, _)| Some(number(Some(index))? * ns)),
             until_ns: number(self.until).map(|ms| 1e6 * ms),
             displayed_ns: displayed_ns.filter(|_| dropped != Some(true)),
@@ -368,6 +505,16 @@ impl Column {
     fn time(&self, row: &StringRecord, unit: Unit) -> Result<Option<i64>, Fault> {
         durations::nanoseconds(&row[self.index], unit)
             .map_err(|fault| Fault::Cell { column: self.name.clone(), fault })
+    }
+
+    fn moment(&self, row: &StringRecord) -> Result<Option<Moment>, Fault> {
+        let cell = row[self.index].trim();
+        if durations::is_missing(cell) {
+            return Ok(None);
+        }
+        let fault =
+            || Fault::Cell { column: self.name.clone(), fault: Unreadable::NotANumber(clip(cell)) };
+        Moment::read(cell.as_bytes(), Decimal::PointOrComma).map(Some).ok_or_else(fault)
     }
 
     fn flag(&self, row: &StringRecord) -> Result<bool, Fault> {

@@ -1,37 +1,17 @@
 //! Parses the times in logs to whole nanoseconds.
 
 use crate::scene::clip;
+use crate::table::Unit;
 
 const DAY_NS: i64 = 86_400_000_000_000;
 
-/// The unit of a column of times.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Unit {
-    Seconds,
-    Milliseconds,
-    Microseconds,
-    Nanoseconds,
-}
-
-impl Unit {
-    /// Returns the number of decimals that a nanosecond has in this unit.
-    fn places(self) -> i64 {
-        match self {
-            Self::Seconds => 9,
-            Self::Milliseconds => 6,
-            Self::Microseconds => 3,
-            Self::Nanoseconds => 0,
-        }
-    }
-
-    /// Returns the name of the unit for people.
-    pub(super) fn name(self) -> &'static str {
-        match self {
-            Self::Seconds => "seconds",
-            Self::Milliseconds => "ms",
-            Self::Microseconds => "µs",
-            Self::Nanoseconds => "ns",
-        }
+/// Returns the number of decimals that a nanosecond has in this unit.
+fn places(unit: Unit) -> i64 {
+    match unit {
+        Unit::Seconds => 9,
+        Unit::Milliseconds => 6,
+        Unit::Microseconds => 3,
+        Unit::Nanoseconds | Unit::Ticks => 0,
     }
 }
 
@@ -50,19 +30,24 @@ pub(super) enum Unreadable {
 /// as missing. The decimal sign may be a comma.
 pub(super) fn nanoseconds(cell: &str, unit: Unit) -> Result<Option<i64>, Unreadable> {
     let cell = cell.trim();
-    if ["", "na", "n/a"].iter().any(|none| cell.eq_ignore_ascii_case(none)) {
+    if is_missing(cell) {
         return Ok(None);
     }
     let (negative, number) = match cell.strip_prefix('-') {
         Some(number) => (true, number),
         None => (false, cell.strip_prefix('+').unwrap_or(cell)),
     };
-    let ns = unsigned(number, unit.places()).ok_or_else(|| Unreadable::NotANumber(clip(cell)))?;
+    let ns = unsigned(number, places(unit)).ok_or_else(|| Unreadable::NotANumber(clip(cell)))?;
     match ns {
         1.. if negative => Err(Unreadable::Negative(clip(cell))),
         DAY_NS.. => Err(Unreadable::TooLong(clip(cell))),
         _ => Ok(Some(ns)),
     }
+}
+
+/// Whether the log marks a number as missing.
+pub(super) fn is_missing(cell: &str) -> bool {
+    ["", "na", "n/a"].iter().any(|none| cell.trim().eq_ignore_ascii_case(none))
 }
 
 /// Parses a number without a sign, capped at a day; `None` if the text is not a number.

@@ -228,8 +228,8 @@ fn are_parted(frames: &[Frame], until: Option<[(Frame, f64); 2]>) -> bool {
     apart_ns > most_ns || against_ns > most_ns
 }
 
-/// Returns the refresh rate whose period is the median time between displayed frames, because most frames last one
-/// refresh. With fewer than two displayed frames it is 60 Hz.
+/// Returns the refresh rate whose period is the mean of the times between displayed frames within a quarter of the
+/// median, because most frames last one refresh. With fewer than two displayed frames it is 60 Hz.
 fn nominal_refresh(frames: &[Frame]) -> RefreshRate {
     let shown: Vec<i64> = frames.iter().filter_map(|frame| frame.displayed_ns).collect();
     let changes = shown.windows(2).map(|pair| pair[1] - pair[0]);
@@ -238,5 +238,9 @@ fn nominal_refresh(frames: &[Frame]) -> RefreshRate {
         return RefreshRate::new(60, 1);
     }
     let middle = changes.len() / 2;
-    RefreshRate::of_period(*changes.select_nth_unstable(middle).1)
+    let median = *changes.select_nth_unstable(middle).1;
+    // A clock with a coarse grain has the period in its mean.
+    let usual = changes.iter().copied().filter(|ns| (ns - median).abs() <= median / 4);
+    let (sum, count) = usual.fold((0, 0), |(sum, count), ns| (sum + i128::from(ns), count + 1));
+    RefreshRate::of_period((sum / count.max(1)) as i64)
 }

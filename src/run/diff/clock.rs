@@ -1,5 +1,7 @@
 //! Recognises columns that advance like a clock while nothing moves.
 
+use crate::table::{Unit, words};
+
 /// Words in the names of clocks and counters of any unit.
 const CLOCKS: [&str; 27] = [
     "clock",
@@ -74,32 +76,19 @@ impl Moves {
     pub(super) fn of_name(name: &str, is_only: bool) -> Self {
         let words = words(name);
         let has = |known: &[&str]| words.iter().any(|word| known.contains(&&**word));
-        let is_clock = || words.iter().any(|word| CLOCK_ENDS.iter().any(|end| word.ends_with(end)));
+        // The last word says what it is: a frame hash is no frame. A unit after it says nothing.
+        let last = words.iter().rfind(|word| Unit::of_word(word).is_none()).or(words.last());
+        let is_clock = last.is_some_and(|word| {
+            CLOCKS.contains(&&**word) || CLOCK_ENDS.iter().any(|end| word.ends_with(end))
+        });
         if has(&PLACES) {
             return Self::Always;
         }
-        if has(&CLOCKS) || is_clock() {
+        if is_clock {
             return Self::Back;
         }
         if is_only { Self::Always } else { Self::Unevenly }
     }
-}
-
-/// Splits a name into its words in lower case. For example, `simTime`, `sim_time` and `sim.time` have the same two
-/// words.
-fn words(name: &str) -> Vec<String> {
-    let mut words = vec![String::new()];
-    let mut was_lower = false;
-    for sign in name.chars() {
-        let begins = !sign.is_alphanumeric() || sign.is_uppercase() && was_lower;
-        if begins {
-            words.push(String::new());
-        }
-        was_lower = sign.is_lowercase();
-        let last = words.last_mut().expect("there is one");
-        last.extend(sign.to_lowercase().filter(|sign| sign.is_alphanumeric()));
-    }
-    words
 }
 
 /// How a column advances through the rows with one key.

@@ -1,10 +1,16 @@
 //! Reads a log of one coordinate from text, and describes the body that it records.
 
+mod columns;
+
 use csv::ByteRecord;
 
-use crate::scene::{clip, clip_list};
-use crate::sim::number::{counted, significant};
-use crate::table::{Decimal, Reading, TableError, TableReader, Utf8, number};
+use columns::{Columns, OF_X, TimeColumn};
+
+use crate::sim::number::significant;
+use crate::table::{
+    Course, Decimal, Heading, Moment, Reading, TableError, TableOptions, TableReader, Taken, Unit,
+    Utf8, median, number,
+};
 
 /// A row of a log.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -23,31 +29,16 @@ pub struct LogRow {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Log {
     rows: Vec<LogRow>,
-    /// Names of the columns that were read; times in milliseconds are marked.
+    /// Names of the columns that were read.
     columns: String,
+    taken: Taken,
+    /// Ticks per second, given or found.
+    tick_hz: f64,
+    /// All rows at even ticks whatever their times, if these are uneven, and the row that is late.
+    stepped: Option<(Vec<LogRow>, Option<String>)>,
     /// Largest coordinate and largest velocity in magnitude. The velocity's scale is 1 if the log has no velocities.
     scale: [f64; 2],
     is_uneven: bool,
-}
-
-/// Names of a log's columns.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct ColumnNames {
-    /// Column of the tick number; optional if there are times.
-    pub tick: String,
-    /// Column of the time in seconds; optional if there are ticks.
-    pub t: String,
-    /// Column of the coordinate in metres.
-    pub x: String,
-    /// Column of the velocity in metres per second; optional.
-    pub v: String,
-}
-
-impl Default for ColumnNames {
-    fn default() -> Self {
-        let [tick, t, x, v] = ["tick", "t", "x", "v"].map(str::to_owned);
-        Self { tick, t, x, v }
-    }
 }
 
 /// The fault that makes a log unreadable, with its place.
@@ -66,18 +57,20 @@ pub struct LogError {
 /// A setting of [`Log::parse`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum LogSetting {
-    /// The setting [`ColumnNames::tick`].
+    /// The setting [`TableOptions::tick`].
     TickColumn,
-    /// The setting [`ColumnNames::t`].
+    /// The setting [`TableOptions::t`], or another one of times.
     TimeColumn,
-    /// The setting [`ColumnNames::tick`] or [`ColumnNames::t`].
-    TickOrTimeColumn,
-    /// The setting [`ColumnNames::x`].
+    /// The setting [`TableOptions::x`].
     CoordinateColumn,
-    /// The setting [`ColumnNames::v`].
+    /// The setting [`TableOptions::v`].
     VelocityColumn,
-    /// The tick rate.
-    TickRate,
+    /// The tick rate, which a log without times needs.
+    MissingTickRate,
+    /// The setting [`TableOptions::unit`].
+    Unit,
+    /// The setting [`TableOptions::filter`].
+    Filter,
 }
 
 /// Largest mean share that numbers of single precision lose when they are written with nine digits and read as single
@@ -98,148 +91,127 @@ impl From<String> for Fault {
     }
 }
 
-/// The columns of a log by their index, from 0.
-struct Columns {
-    names: Vec<String>,
-    time: TimeColumn,
-    x: usize,
-    v: Option<usize>,
-    decimal: Decimal,
-}
-
-enum TimeColumn {
-    Ticks(usize),
-    /// The column, and the number of its units in a second.
-    Time(usize, f64),
-}
-
-/// Other names for columns of ticks, seconds and milliseconds. Case does not matter.
-const OF_TICKS: [&str; 3] = ["tick", "frame", "step"];
-const OF_SECONDS: [&str; 6] = ["t", "time", "t_s", "time_s", "seconds", "elapsed"];
-const OF_MILLISECONDS: [&str; 5] = ["t_ms", "time_ms", "ms", "timestamp_ms", "elapsed_ms"];
-const MS: f64 = 1e3;
-/// If a log's second row seems at least this many ticks after the first, the log's times are in milliseconds.
-const TOO_FAR: f64 = 500.0;
-
-impl Columns {
-    /// Finds the columns. `per_second` is the number of time units per second, unless the column's name gives the
-    /// unit.
-    fn find(
-        header: Vec<String>,
-        decimal: Decimal,
-        names: &ColumnNames,
-        per_second: f64,
-    ) -> Result<Self, Fault> {
-        let column = |wanted: &str| header.iter().position(|known| known == wanted);
-        let one_of = |known: &[&str]| {
-            header
-                .iter()
-                .position(|name| known.iter().any(|known| name.eq_ignore_ascii_case(known)))
-        };
-        let absent = |what: &str, setting: LogSetting| Fault {
-            mistaken: Some(setting),
-            what: format!("no column {what}; here are {}", listed(&header)),
-        };
-        let Some(x) = column(&names.x) else {
-            return Err(absent(&format!("{:?}", names.x), LogSetting::CoordinateColumn));
-        };
-        let (tick, t, v) = (column(&names.tick), column(&names.t), column(&names.v));
-        let usual = ColumnNames::default();
-        for (wanted, usual, found, setting) in [
-            (&names.tick, &usual.tick, tick, LogSetting::TickColumn),
-            (&names.t, &usual.t, t, LogSetting::TimeColumn),
-            (&names.v, &usual.v, v, LogSetting::VelocityColumn),
-        ] {
-            if wanted != usual && found.is_none() {
-                return Err(absent(&format!("{wanted:?}"), setting));
-            }
-        }
-        // If the caller names a time column, other names for ticks do not count.
-        let tick = tick.or_else(|| one_of(&OF_TICKS).filter(|_| names.t == usual.t));
-        let seconds = t.or_else(|| one_of(&OF_SECONDS));
-        let milliseconds = one_of(&OF_MILLISECONDS);
-        let t = seconds.map(|at| (at, per_second)).or(milliseconds.map(|at| (at, MS)));
-        let time = tick.map(TimeColumn::Ticks);
-        let time = time.or(t.map(|(at, per_second)| TimeColumn::Time(at, per_second)));
-        let time = time.ok_or_else(|| {
-            let both = format!("{:?} and none {:?}", names.tick, names.t);
-            absent(&both, LogSetting::TickOrTimeColumn)
-        })?;
-        Ok(Self { names: header, time, x, v, decimal })
-    }
-
-    /// Returns the names of the columns that were read, for people.
-    fn read_names(&self) -> String {
-        let (time, unit) = match self.time {
-            TimeColumn::Ticks(at) => (at, ""),
-            TimeColumn::Time(at, MS) => (at, " (in ms)"),
-            TimeColumn::Time(at, _) => (at, ""),
-        };
-        let named = |at: usize| clip(&self.names[at]);
-        let x = [Some(self.x), self.v].into_iter().flatten().map(named);
-        [format!("{}{unit}", named(time))].into_iter().chain(x).collect::<Vec<_>>().join(", ")
-    }
-
-    /// Whether the log's times count as seconds.
-    fn is_in_seconds(&self) -> bool {
-        matches!(self.time, TimeColumn::Time(_, 1.0))
-    }
-
-    /// Returns the number of ticks between the first row and this one. `first` is the first row's own count, set by the
-    /// first call.
-    fn ticks_since(
-        &self,
-        record: &ByteRecord,
-        tick_hz: f64,
-        first: &mut Option<f64>,
-    ) -> Result<f64, Fault> {
-        let at = match self.time {
-            TimeColumn::Ticks(tick) => self.number(record, tick)?,
-            TimeColumn::Time(t, per_second) => self.number(record, t)? / per_second * tick_hz,
-        };
-        Ok(at - *first.get_or_insert(at))
-    }
-
-    fn number(&self, record: &ByteRecord, column: usize) -> Result<f64, Fault> {
-        let cell = &record[column];
-        let found = number(cell, self.decimal).filter(|number| number.is_finite());
-        found.ok_or_else(|| {
-            let cell = String::from_utf8_lossy(cell);
-            let [column, cell] = [self.names[column].as_str(), cell.trim()].map(clip);
-            format!(
-                "column \"{column}\": \"{cell}\" is no number; write one, or cut the log before it"
-            )
-            .into()
-        })
-    }
-}
-
 /// Whether a row lies on a whole tick, `since` ticks after the first.
 fn is_at_a_tick(since: f64) -> bool {
     (since - since.round()).abs() <= OFF_TICK
 }
 
-/// Returns the fault of rows off their ticks that are evenly spaced at another rate. `since` is each row's distance
-/// from the first, in ticks. `None` if the rows are uneven, or if all are on their ticks.
-fn off_ticks(since: &[f64], tick_hz: f64) -> Option<Fault> {
-    let off = since.iter().find(|since| !is_at_a_tick(**since))?;
+/// Returns the rate of rows off their ticks that are evenly spaced at another rate. `since` is each row's distance from
+/// the first, in ticks. `None` if the rows are uneven, or if all are on their ticks.
+fn other_rate(since: &[f64], tick_hz: f64) -> Option<f64> {
+    since.iter().find(|since| !is_at_a_tick(**since))?;
     let steps = since.len() as f64 - 1.0;
     let step = since[since.len() - 1] / steps;
     let is_even =
         since.iter().zip(0..).all(|(since, row)| (since / step - f64::from(row)).abs() <= OFF_TICK);
-    let rate = significant(tick_hz / step, 4);
-    is_even.then(|| Fault {
-        mistaken: Some(LogSetting::TickRate),
-        what: format!(
-            "the row is {off:.3} ticks of {tick_hz} Hz after the first; there are {rate} rows a second"
-        ),
-    })
+    is_even.then_some(tick_hz / step)
 }
 
-/// Returns the columns of the header, for a message.
-fn listed(header: &[String]) -> String {
-    let names: Vec<String> = header.iter().map(|name| format!("\"{name}\"")).collect();
-    clip_list(names.iter().map(String::as_str))
+/// Number of rows whose times tell their unit and their rate.
+const SURVEYED: u64 = 1000;
+/// Largest residual of a linear step, as a share of the largest coordinate, of rows that step alike.
+const STEPS_ALIKE: f64 = 1e-6;
+/// Smallest share of repeated times with which each step has two rows.
+const ALL_TWICE: f64 = 0.45;
+/// Largest distance of the usual step from a tick, in ticks, of rows that are ticks whatever their times.
+const OFF_RATE: f64 = 0.02;
+/// Largest share of rows that count as late.
+const MOST_LATE: f64 = 0.1;
+/// Returns the largest coordinate and velocity in magnitude, or 1 where all are 0.
+fn scale_of(rows: &[LogRow]) -> [f64; 2] {
+    let largest = |numbers: &mut dyn Iterator<Item = f64>| {
+        let largest = numbers.map(f64::abs).fold(0.0, f64::max);
+        if largest > 0.0 { largest } else { 1.0 }
+    };
+    let x = largest(&mut rows.iter().map(|row| row.x));
+    [x, largest(&mut rows.iter().filter_map(|row| row.v))]
+}
+
+/// The rows of a log while they are read.
+#[derive(Default)]
+struct Rows {
+    tick_hz: f64,
+    /// Number of units of time in a second.
+    per_second: f64,
+    rows: Vec<LogRow>,
+    /// All rows, with those whose time is that of the row before.
+    all: Vec<LogRow>,
+    /// Distance of each row from the first, in ticks.
+    since: Vec<f64>,
+    /// Line of the first row off its tick.
+    off: Option<u64>,
+    first: Option<Moment>,
+    /// Sum of the frames up to now.
+    frames: f64,
+    /// Number and time of the rows whose time is that of the row before.
+    repeated: Vec<(u64, f64)>,
+    last: ByteRecord,
+    /// The first two rows at one time.
+    pair: Option<[ByteRecord; 2]>,
+}
+
+impl Rows {
+    /// Adds a row with its line and its number, and returns whether the log is long enough.
+    fn add(
+        &mut self,
+        columns: &Columns,
+        record: &ByteRecord,
+        (line, number): (u64, u64),
+    ) -> Result<bool, Fault> {
+        let since = match (columns.time, columns.moment(record)?) {
+            (TimeColumn::Rows, _) | (_, None) => self.all.len() as f64,
+            (TimeColumn::Ticks(_), Some(moment)) => moment.since(*self.first.get_or_insert(moment)),
+            (TimeColumn::Frames(_), Some(duration)) => {
+                self.frames += if self.all.is_empty() { 0.0 } else { duration.value() };
+                self.frames / self.per_second * self.tick_hz
+            }
+            (TimeColumn::Time(_), Some(moment)) => {
+                let per_second = if moment.is_of_calendar { 1e9 } else { self.per_second };
+                moment.since(*self.first.get_or_insert(moment)) / per_second * self.tick_hz
+            }
+        };
+        let is_of_ticks = matches!(columns.time, TimeColumn::Ticks(_));
+        if !is_at_a_tick(since) {
+            if is_of_ticks {
+                return Err(
+                    format!("tick {since} after the first is no whole number; write one").into()
+                );
+            }
+            self.off = self.off.or(Some(line));
+        }
+        let t_s = since / self.tick_hz;
+        let is_same = !is_of_ticks && self.since.last().is_some_and(|before| *before == since);
+        // Two rows of an uneven log may round to the same tick.
+        let follows = self.since.last().is_none_or(|before| match self.off {
+            Some(_) => since > *before,
+            None => since.round() > before.round(),
+        });
+        if !is_same && (!follows || since < 0.0) {
+            let place = match self.off {
+                Some(_) => "the time".to_owned(),
+                None => format!("tick {}", since.round()),
+            };
+            return Err(format!("{place} does not follow the row before; put rows in order").into());
+        }
+        let is_over = if self.off.is_some() { self.rows.len() as f64 } else { since.round() };
+        if is_over > Log::MAX_TICKS as f64 {
+            return Ok(true);
+        }
+        let value = |column| columns.number(record, column);
+        let (x, v) = (value(columns.x)?, columns.v.map(value).transpose()?);
+        let row = LogRow { tick: since.round() as u64, t_s, x, v };
+        self.all.push(row);
+        if is_same {
+            self.repeated.push((number, t_s));
+            let last = &self.last;
+            self.pair.get_or_insert_with(|| [last.clone(), record.clone()]);
+            return Ok(false);
+        }
+        self.last.clone_from(record);
+        self.rows.push(row);
+        self.since.push(since);
+        Ok(false)
+    }
 }
 
 impl Log {
@@ -250,37 +222,28 @@ impl Log {
     /// Number of ticks after which rows are ignored; in an uneven log, number of rows.
     pub const MAX_TICKS: u64 = 3000;
 
-    /// Reads a log from the text of a table with a header. `name` is the name of the file, for messages.
+    /// Reads a log from the text of a table. `name` is the name of the file, for messages.
     ///
     /// # Errors
     /// Fails with the first fault of the text.
     pub fn parse(
         name: &str,
         text: &str,
-        columns: &ColumnNames,
+        options: &TableOptions,
         tick_hz: f64,
     ) -> Result<Log, LogError> {
-        Self::from_bytes(name, text.as_bytes(), columns, tick_hz)
+        Self::from_bytes(name, text.as_bytes(), options, Some(tick_hz))
     }
 
-    /// Like [`Log::parse`], from the bytes of a file in UTF-8 or UTF-16.
+    /// Like [`Log::parse`], from the bytes of a file in UTF-8 or UTF-16. Without a tick rate, the log's times give it.
     ///
     /// # Errors
-    /// Fails as [`Log::parse`] does.
+    /// Fails as [`Log::parse`] does, and if there is neither a tick rate nor a column of times.
     pub fn from_bytes(
         name: &str,
         bytes: &[u8],
-        columns: &ColumnNames,
-        tick_hz: f64,
-    ) -> Result<Log, LogError> {
-        Self::read(name, bytes, columns, (tick_hz, 1.0))
-    }
-
-    fn read(
-        name: &str,
-        bytes: &[u8],
-        names: &ColumnNames,
-        (tick_hz, per_second): (f64, f64),
+        options: &TableOptions,
+        tick_hz: Option<f64>,
     ) -> Result<Log, LogError> {
         let at = |line: u64| {
             move |Fault { mistaken, what }: Fault| {
@@ -291,57 +254,112 @@ impl Log {
         let broken = |error: TableError| at(error.line)(error.fault.to_string().into());
         // A row of numbers may have that name in a cell too, as the coordinate of a trace.
         let is_header = |row: &ByteRecord| {
-            row.iter().any(|cell| cell.trim_ascii() == names.x.as_bytes())
+            let is_x = |cell: &[u8]| {
+                let name = String::from_utf8_lossy(cell);
+                match &options.x {
+                    Some(x) => name.trim() == x.trim(),
+                    None => OF_X.contains(&&*Heading::of(&name).base),
+                }
+            };
+            row.iter().any(is_x)
                 && row.iter().all(|cell| number(cell, Decimal::PointOrComma).is_none())
         };
-        let reading = Reading { remarks: true, ..Reading::default() };
-        let begun = TableReader::begin(Utf8::new(bytes), reading, is_header);
-        let mut table = begun.map_err(broken)?;
-        let name_of = |cell: &[u8]| String::from_utf8_lossy(cell).trim().to_owned();
-        let header = table.header().iter().map(name_of).collect();
-        let found = Columns::find(header, table.decimal(), names, per_second);
-        let columns = found.map_err(at(table.header_line()))?;
-        let (mut rows, mut first): (Vec<LogRow>, Option<f64>) = (Vec::new(), None);
-        let (mut ticks, mut off) = (Vec::<f64>::new(), None);
+        let begin = || {
+            let options = options.clone();
+            let reading = Reading { remarks: true, headless: true, options, ..Reading::default() };
+            TableReader::begin(Utf8::new(bytes), reading, is_header).map_err(broken)
+        };
+        let mut table = begin()?;
+        let header_line = table.header_line();
+        let survey = |time: usize, table: &mut TableReader<_>| {
+            let (mut course, mut row) = (Course::default(), ByteRecord::new());
+            while course.count < SURVEYED
+                && let Ok(Some(_)) = table.next(&mut row)
+            {
+                let cell = row.get(time).unwrap_or_default();
+                Moment::read(cell, Decimal::PointOrComma).into_iter().for_each(|it| course.add(it));
+            }
+            course
+        };
+        let is_headless = table.is_headless();
+        let first = if is_headless { survey(0, &mut begin()?) } else { Course::default() };
+        let found = Columns::find(table.header(), is_headless, (table.decimal(), &first), options);
+        let mut columns = found.map_err(at(header_line))?;
+        let course = match columns.time.column() {
+            Some(time) => survey(time, &mut begin()?),
+            None => Course::default(),
+        };
+        let unit = columns.unit(&course, tick_hz, options).map_err(at(header_line))?;
+        if let (TimeColumn::Time(time), Some((Unit::Ticks, _))) = (columns.time, unit) {
+            columns.time = TimeColumn::Ticks(time);
+        }
+        let unit = unit.filter(|(unit, _)| *unit != Unit::Ticks);
+        let per_second = unit.map_or(1.0, |(unit, _)| 1e9 / unit.ns());
+        let found_hz = || {
+            let has_times = unit.is_some();
+            let missing = Fault {
+                mistaken: Some(LogSetting::MissingTickRate),
+                what: "there is no column of times, so that the rows are ticks of a rate".into(),
+            };
+            has_times
+                .then(|| columns.rate(&course, per_second))
+                .flatten()
+                .ok_or_else(|| at(header_line)(missing))
+        };
+        let tick_hz = tick_hz.map_or_else(found_hz, Ok)?;
+        if let (Some(time), Some((unit, _))) = (columns.time.column(), unit) {
+            table.limit_by(time, unit);
+        }
+        let mut read = Rows { tick_hz, per_second, ..Rows::default() };
         let mut record = ByteRecord::new();
+        let mut last = 0;
         while let Some(line) = table.next(&mut record).map_err(broken)? {
-            let since = columns.ticks_since(&record, tick_hz, &mut first).map_err(at(line))?;
-            if rows.len() == 1 && since >= TOO_FAR && columns.is_in_seconds() {
-                return Self::read(name, bytes, names, (tick_hz, MS));
-            }
-            if !is_at_a_tick(since) {
-                if matches!(columns.time, TimeColumn::Ticks(_)) {
-                    let what =
-                        format!("tick {since} after the first is no whole number; write one");
-                    return Err(at(line)(what.into()));
-                }
-                off = off.or(Some(line));
-            }
-            // Two rows of an uneven log may round to the same tick.
-            let follows = ticks.last().is_none_or(|before| match off {
-                Some(_) => since > *before,
-                None => since.round() > before.round(),
-            });
-            if !follows || since < 0.0 {
-                let place = match off {
-                    Some(_) => "the time".to_owned(),
-                    None => format!("tick {}", since.round()),
-                };
-                let what = format!("{place} does not follow the row before; put rows in order");
-                return Err(at(line)(what.into()));
-            }
-            let is_over = if off.is_some() { rows.len() as f64 } else { since.round() };
-            if is_over > Self::MAX_TICKS as f64 {
+            let row = table.taken().0[1];
+            let is_over = read.add(&columns, &record, (line, row)).map_err(at(line))?;
+            if is_over {
                 break;
             }
-            let value = |column| columns.number(&record, column).map_err(at(line));
-            let (x, v) = (value(columns.x)?, columns.v.map(value).transpose()?);
-            rows.push(LogRow { tick: since.round() as u64, t_s: since / tick_hz, x, v });
-            ticks.push(since);
+            last = row;
         }
+        let of = table.count_rest();
+        let Rows { rows, all, since: ticks, off, repeated, pair, .. } = read;
+        let twice = repeated.len() as f64 > ALL_TWICE * all.len() as f64;
+        if let (true, Some((body, cell))) = (twice, pair.and_then(|pair| columns.of_bodies(&pair)))
+        {
+            let what = format!("two rows at each time; --where {body}={cell} takes one");
+            return Err(at(header_line)(Fault { mistaken: Some(LogSetting::Filter), what }));
+        }
+        let mut taken = Taken { rows: [table.taken().0[0], last], of, unit, ..Taken::default() };
+        taken.left_out = columns.left_out();
+        if last < of && options.rows.is_none() && !options.has_window() && options.filter.is_empty()
+        {
+            taken.notes.push(format!(
+                "{} ticks are read; --rows, or --start and --end choose others",
+                Self::MAX_TICKS
+            ));
+        }
+        match (&repeated[..], twice) {
+            ([], _) => {}
+            (_, true) => {
+                taken.notes.push("two rows at each time; the first of each is taken".into())
+            }
+            ([(row, t_s)], _) => taken.notes.push(format!(
+                "rows {} and {row} are both at {} s; the first is taken",
+                row - 1,
+                significant(*t_s, 4)
+            )),
+            (several, _) => taken.notes.push(format!(
+                "{} rows have the time of the row before, and are left out",
+                several.len()
+            )),
+        }
+        let mut rows = rows;
         let is_uneven = off.is_some();
-        if let Some(line) = off {
-            off_ticks(&ticks, tick_hz).map_or(Ok(()), |fault| Err(at(line)(fault)))?;
+        if is_uneven {
+            taken.notes.extend(other_rate(&ticks, tick_hz).map(|rate| {
+                let rate = significant(rate, 4);
+                format!("there are {rate} rows a second: give the rate with --tick-hz to find the method")
+            }));
             (0..).zip(&mut rows).for_each(|(number, row)| row.tick = number);
         }
         let has_velocities = columns.v.is_some();
@@ -354,13 +372,53 @@ impl Log {
         if rows.iter().all(|row| row.x == rows[0].x && row.v.unwrap_or(0.0) == 0.0) {
             return Err(at(2)("nothing moves; log a motion".to_owned().into()));
         }
-        let largest = |numbers: &mut dyn Iterator<Item = f64>| {
-            let largest = numbers.map(f64::abs).fold(0.0, f64::max);
-            if largest > 0.0 { largest } else { 1.0 }
-        };
-        let x = largest(&mut rows.iter().map(|row| row.x));
-        let v = largest(&mut rows.iter().filter_map(|row| row.v));
-        Ok(Log { rows, columns: columns.read_names(), scale: [x, v], is_uneven })
+        // A frame that came late skips ticks of the clock, but none of the motion.
+        let gaps = rows.windows(2).filter(|pair| pair[1].tick > pair[0].tick + 1).count();
+        let is_late = unit.is_some() && gaps > 0 && gaps as f64 <= MOST_LATE * rows.len() as f64;
+        let has_other_times = is_uneven || is_late || !twice && !repeated.is_empty();
+        let steps: Vec<f64> = ticks.windows(2).map(|pair| pair[1] - pair[0]).collect();
+        let is_of_rate = median(&steps).is_some_and(|step| (step - 1.0).abs() <= OFF_RATE);
+        let stepped = (has_other_times && is_of_rate && all.len() >= least).then(|| {
+            let late = all
+                .windows(2)
+                .zip(1..)
+                .find(|(pair, _)| (pair[1].t_s - pair[0].t_s) * tick_hz > 1.5);
+            let late = late.map(|(pair, row)| {
+                let ms = significant(1e3 * (pair[1].t_s - pair[0].t_s - 1.0 / tick_hz), 3);
+                format!("row {} is {ms} ms late", taken.rows[0] + row)
+            });
+            let same = repeated.first().filter(|_| late.is_none());
+            let same = same.map(|(row, t_s)| {
+                format!("rows {} and {row} are both at {} s", row - 1, significant(*t_s, 4))
+            });
+            let even = (0..).zip(&all).map(|(tick, row)| LogRow {
+                tick,
+                t_s: tick as f64 / tick_hz,
+                ..*row
+            });
+            (even.collect(), late.or(same))
+        });
+        let scale = scale_of(&rows);
+        let names = columns.read_names(&taken);
+        Ok(Log { rows, columns: names, taken, tick_hz, stepped, scale, is_uneven })
+    }
+
+    /// Returns the log with its rows as ticks, whatever their times, and what is wrong with the times. `None` if the
+    /// times are even, or if the rows do not follow from each other like those of a linear motion.
+    pub(super) fn as_ticks(&self) -> Option<(Log, Option<String>)> {
+        let (rows, late) = self.stepped.clone()?;
+        let x: Vec<f64> = rows.iter().map(|row| row.x).collect();
+        let last = x.len().checked_sub(2)?;
+        let columns = [x[1..=last].to_vec(), x[..last].to_vec(), vec![1.0; last]];
+        let found = crate::sim::least_squares(&columns, &x[2..])?;
+        let scale = scale_of(&rows);
+        let off = (0..last).map(|i| {
+            let next: f64 = columns.iter().zip(&found).map(|(column, part)| column[i] * part).sum();
+            (x[i + 2] - next).abs()
+        });
+        let is_linear = last > 3 && off.fold(0.0, f64::max) <= STEPS_ALIKE * scale[0];
+        is_linear
+            .then(|| (Log { rows, scale, is_uneven: false, stepped: None, ..self.clone() }, late))
     }
 
     /// Returns the same log, moved so that the body's rest is at 0.
@@ -373,10 +431,21 @@ impl Log {
     pub fn summary(&self) -> String {
         let last = self.rows[self.rows.len() - 1];
         let rate = significant((self.rows.len() - 1) as f64 / last.t_s, 4);
-        let rows = counted(self.rows.len(), "row");
+        let rows = self.taken.rows_in_words();
         let even = if self.is_uneven { "uneven, about " } else { "" };
         let seconds = significant(last.t_s, 3);
-        format!("read {rows} in {seconds} s: {even}{rate} a second, columns {}", self.columns)
+        let (columns, rest) = (&self.columns, self.taken.rest_in_words());
+        format!("read {rows} in {seconds} s: {even}{rate} a second, columns {columns}{rest}")
+    }
+
+    /// Returns the rows that were taken, and how they were read.
+    pub fn taken(&self) -> &Taken {
+        &self.taken
+    }
+
+    /// Returns the ticks per second, given or found.
+    pub fn tick_hz(&self) -> f64 {
+        self.tick_hz
     }
 
     /// Whether the log's rows are at uneven times, so that no method can run beside the log.

@@ -177,7 +177,7 @@ fn deviations(slopes: &[Vec<f64>], variance: f64) -> Option<[f64; 2]> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::tools::identify::ColumnNames;
+    use crate::table::TableOptions;
 
     /// Returns a log of a spring that rests at 3, with x at uneven times.
     fn log(noise: f64) -> Log {
@@ -188,7 +188,7 @@ mod tests {
             text += &format!("{t:?},{x:?}\n");
             t += 0.012 + 0.01 * f64::from((row * 7 % 11) as u32) / 11.0;
         }
-        Log::parse("log.csv", &text, &ColumnNames::default(), 60.0).unwrap()
+        Log::parse("log.csv", &text, &TableOptions::default(), 60.0).unwrap()
     }
 
     #[test]

@@ -1,8 +1,8 @@
 //! The engine that made a log is found by its motion alone.
 
+use regatta::table::TableOptions;
 use regatta::tools::identify::{
-    Candidate, ColumnNames, Conclusion, Identification, Log as Text, LoggedBody, SpringForm,
-    identify,
+    Candidate, Conclusion, Identification, Log as Text, LoggedBody, SpringForm, identify,
 };
 use regatta::tools::port::{Setup, setups};
 
@@ -20,7 +20,7 @@ fn identified(log: &Log, rows: &[Row], has_velocity: bool) -> Identification {
         }
     }
     let tick_hz = (1.0 / log.tick_s).round();
-    let text = Text::parse(&log.file, &text, &ColumnNames::default(), tick_hz).unwrap();
+    let text = Text::parse(&log.file, &text, &TableOptions::default(), tick_hz).unwrap();
     let body = LoggedBody {
         spring: Some(log.body.spring),
         drag: log.body.drag,
@@ -60,7 +60,7 @@ fn a_log_of_every_mode_of_every_engine_is_identified_at_three_settings() {
             }
             let rows = run(&setup, spring, [1.0, -0.5], 24).into_iter().enumerate();
             let rows: String = rows.map(|(tick, [x, v])| format!("{tick},{x:e},{v:e}\n")).collect();
-            let columns = ColumnNames::default();
+            let columns = TableOptions::default();
             let text = Text::parse("log", &format!("tick,x,v\n{rows}"), &columns, tick_hz);
             let body = LoggedBody { spring: Some(spring), ..LoggedBody::default() };
             let found = identify(&text.unwrap(), &body, tick_hz).unwrap();
@@ -171,7 +171,7 @@ fn an_unknown_spring_is_fitted_and_leaves_the_engine_open() {
     for Row { tick, x, v } in &log.rows {
         text += &format!("{tick},{x:e},{v:e}\n");
     }
-    let text = Text::parse("log", &text, &ColumnNames::default(), 60.0).unwrap();
+    let text = Text::parse("log", &text, &TableOptions::default(), 60.0).unwrap();
     let body = LoggedBody::default();
     let found = identify(&text, &body, 60.0).unwrap();
     assert_eq!(found.conclusion, Conclusion::CannotTell, "{}", found.best.unwrap().candidate);
@@ -208,7 +208,7 @@ fn a_double_precision_log_needs_a_match_within_its_rounding() {
             v *= kept;
             text += &format!("{tick},{x:e},{v:e}\n");
         }
-        let text = Text::parse("log", &text, &ColumnNames::default(), 60.0).unwrap();
+        let text = Text::parse("log", &text, &TableOptions::default(), 60.0).unwrap();
         let body = LoggedBody { spring: Some([40.0, c]), ..LoggedBody::default() };
         identify(&text, &body, 60.0).unwrap()
     };

@@ -1,8 +1,8 @@
 //! The logs of each tool, their units, and the columns next to their times.
 
-use std::time::Instant;
-
-use regatta::loops::trace_file::{from_bytes, read};
+use regatta::loops::FrameTrace;
+use regatta::loops::trace_file::{from_table, read};
+use regatta::table::{TableOptions, Unit};
 
 use super::{frames, traces};
 
@@ -10,7 +10,13 @@ use super::{frames, traces};
 fn summed(text: &str) -> (String, Vec<f64>) {
     let [trace] = &traces("log", text)[..] else { panic!("one trace") };
     let began = frames(trace).iter().map(|frame| frame.began_ns as f64 / 1e6).collect();
-    (trace.summary().expect("a log"), began)
+    (short(trace), began)
+}
+
+/// The summary of a trace, without the rows that were taken.
+fn short(trace: &FrameTrace) -> String {
+    let summary = trace.summary().expect("a log");
+    summary.split("; rows ").next().unwrap().to_owned()
 }
 
 #[test]
@@ -110,7 +116,7 @@ fn every_tool_in_the_manual_has_a_log_of_the_same_ten_frames() {
         let is_list = ["a list", "MangoHud"].iter().any(|list| tool.starts_with(list));
         let lasted = if is_list { "0.183 s: 54.5 a second" } else { "0.167 s: 54.0 a second" };
         let summary = format!("read 10 frames in {lasted}, longest 33.4 ms{never} ({tool})");
-        assert_eq!(read[0].summary(), Some(summary), "{name}");
+        assert_eq!(short(&read[0]), summary, "{name}");
         // In each unit the frames begin at the same nanosecond, to the digits that the tool writes.
         let began: Vec<i64> = frames(&read[0]).iter().map(|frame| frame.began_ns).collect();
         let wanted: Vec<i64> = frames(&traces(OF_TOOLS[0].0, OF_TOOLS[0].1)[0])
@@ -134,7 +140,7 @@ fn contradicting_times_of_a_log_are_reported() {
         [(0.008, 8.0, ""), (0.008, 8000.0, ", in µs"), (0.008, 0.008, ", in seconds")]
     {
         let trace = log(presentmon, &|n| format!("{},{time},{time}", n * every_s));
-        let said = trace.summary().unwrap();
+        let said = short(&trace);
         assert_eq!(
             said,
             format!("read 300 frames in 2.39 s: 125 a second, longest 8.00 ms (PresentMon{unit})")
@@ -197,60 +203,189 @@ fn unreals_footer_is_no_frame_and_fraps_counts_from_its_start() {
     assert_eq!(error, "a:3: the frame begins before the one above it; put rows in order");
 }
 
-#[test]
-fn times_that_no_clock_holds_are_refused_with_their_row() {
-    let generated = "g,X,86399999,86399999\n".repeat(107_000);
-    for head in ["MsBetweenPresents,MsBetweenDisplayChange", "MsFrameTime,MsDisplayedTime"] {
-        let text = format!("Application,FrameType,{head}\ng,Application,16,16\n{generated}");
-        let error = read("log", &text).err().unwrap();
-        assert!(error.to_string().contains("more than a year in all; split the log"), "{error}");
-        assert!((360..375).contains(&error.line), "{head}: {error}");
+/// The summary of a log, or the reason why it is refused.
+fn said_of(text: &str, options: &TableOptions) -> String {
+    match from_table("log", text.as_bytes(), options) {
+        Ok(traces) => traces[0].summary().unwrap(),
+        Err(error) => error.to_string(),
     }
 }
 
 #[test]
-fn a_log_is_bounded_in_frames_and_programs() {
-    let list = "9\n".repeat(1_100_000);
-    let error = read("log", &list).err().unwrap().to_string();
-    assert_eq!(error, "log:1048577: the log has more than 1048576 frames; split it");
-    let rows: String = (0..1100).map(|n| format!("g{n},9,9\n")).collect();
-    let head = "Application,MsBetweenPresents,MsBetweenDisplayChange\n";
-    let error = read("log", &format!("{head}{rows}")).err().unwrap().to_string();
-    assert!(error.starts_with("log:1002: the log has more than 1000 programs"), "{error}");
-}
-
-#[test]
-#[cfg(feature = "serde")]
-fn a_json_capture_costs_only_its_known_columns() {
-    let capture = |data: &str| format!("{{\"Runs\":[{{\"CaptureData\":{{{data}}}}}]}}");
-    let unknown: String = (0..200_000).map(|n| format!("\"k{n}\":[1],")).collect();
-    let text = capture(&format!("{unknown}\"MsBetweenPresents\":[9, 8]"));
-    let began = Instant::now();
-    assert_eq!(frames(&read("log", &text).unwrap()[0]).len(), 2);
-    // Comparing each key with each takes minutes.
-    assert!(began.elapsed().as_secs() < 10);
-    let long = capture(&format!("\"MsBetweenPresents\":[{}9]", "9,".repeat(1_100_000)));
-    let error = read("log", &long).err().unwrap().to_string();
-    assert!(error.contains("more than 1048576 frames; split it"), "{error}");
-    // A program's name is in every row, so that a long one would fill the memory.
-    let (name, cells) = ("n".repeat(100_000), "9,".repeat(50_000));
-    let text = capture(&format!("\"MsBetweenPresents\":[{cells}9]"));
-    let text = text.replacen('{', &format!("{{\"Info\":{{\"ProcessName\":\"{name}\"}},"), 1);
-    assert_eq!(frames(&read("log", &text).unwrap()[0]).len(), 50_001);
-}
-
-#[test]
-fn a_log_of_capframex_has_its_name_in_every_encoding() {
-    let text = "//GameName=g\r\n//ProcessName=g.exe\r\nMsBetweenPresents,MsBetweenDisplayChange,Dropped\r\n\
-                16,16,0\r\n16,16,0\r\n16,16,0\r\n";
-    let utf_16 = |mark: u16, order: fn(u16) -> [u8; 2]| -> Vec<u8> {
-        std::iter::once(mark).chain(text.encode_utf16()).flat_map(order).collect()
-    };
-    let marked = [b"\xef\xbb\xbf", text.as_bytes()].concat();
-    for bytes in
-        [text.into(), marked, utf_16(0xfeff, u16::to_le_bytes), utf_16(0xfeff, u16::to_be_bytes)]
-    {
-        let summary = from_bytes("log", &bytes).unwrap()[0].summary().unwrap();
-        assert!(summary.ends_with("(CapFrameX)"), "{summary}");
+fn a_list_or_table_is_read_by_its_size_heading_and_form() {
+    let rows = |row: &dyn Fn(usize) -> String| (0..40).map(|n| row(n) + "\n").collect::<String>();
+    // Every tenth frame lasts two refreshes of 60 Hz.
+    let t_ms = |n: usize| (n + n / 10) as f64 * 1e3 / 60.0;
+    let dt_ms = |n: usize| if n % 10 == 0 && n > 0 { 1e3 / 30.0 } else { 1e3 / 60.0 };
+    let of_day = |n: usize| format!("12:00:{:06.3}", t_ms(n) / 1e3);
+    let (clock, size) = ("the times are those of a running clock", "by size");
+    let frames = "55.8 a second";
+    let clocks = "55.7 a second";
+    for (text, told) in [
+        (rows(&|n| format!("{:.7}", t_ms(n) / 1e3)), [clocks, clock, "in seconds, by size"]),
+        (rows(&|n| format!("{:.3}", 105.0 + t_ms(n))), [clocks, clock, "in ms, by size"]),
+        (rows(&|n| format!("{:.6}", 73e3 + t_ms(n) / 1e3)), [clocks, clock, size]),
+        (rows(&|n| format!("{:.0}", 1e15 + 1e6 * t_ms(n))), [clocks, clock, "in ns, by size"]),
+        (rows(&|n| of_day(n)), [clocks, clock, "by its form"]),
+        (
+            rows(&|n| format!("{:.0}", 1e6 * dt_ms(n))),
+            [frames, "in ns, by size", "rows 1 to 40 of 40"],
+        ),
+        (rows(&|n| format!("{:.0}", 1e3 * dt_ms(n))), [frames, "in µs, by size", ""]),
+        (
+            format!("[{}]", rows(&|n| dt_ms(n).to_string()).trim_end().replace('\n', ",")),
+            [frames, "in ms", ""],
+        ),
+        (
+            format!("Frame Time (ns)\n{}", rows(&|n| format!("{:.0}", 1e6 * dt_ms(n)))),
+            [frames, "in ns, by its heading", ""],
+        ),
+        (
+            format!(
+                "t_ms,frame_ms,fps,gpu\n{}",
+                rows(&|n| format!("{},{},{},5", t_ms(n), dt_ms(n), 1e3 / dt_ms(n)))
+            ),
+            [frames, "left out: t_ms, gpu", "in ms, by its heading"],
+        ),
+        (
+            format!("frame,ms\n{}", rows(&|n| format!("{n},{}", dt_ms(n)))),
+            [frames, "in ms", "left out: frame"],
+        ),
+        (
+            format!(
+                "# n, end, frame time microseconds\n{}",
+                rows(&|n| format!("{n},{},{}", t_ms(n), 1e3 * dt_ms(n)))
+            ),
+            [frames, "in µs, by its heading", "left out: n, end"],
+        ),
+        (
+            format!("Frame,Timestamp\n{}", rows(&|n| format!("{n},{}", t_ms(n)))),
+            [clocks, clock, "left out: Frame"],
+        ),
+        (rows(&|n| format!("{n} {}", t_ms(n))), [clocks, clock, "left out: 1"]),
+        (
+            format!(
+                "Time (µs),Frame Interval (µs),Count\n{}",
+                rows(&|n| format!("{},{},1", 1e3 * t_ms(n), 1e3 * dt_ms(n)))
+            ),
+            [frames, "in µs, by its heading", ""],
+        ),
+        (
+            format!(
+                "Time (µs),Frame Interval (µs),Count\n{}",
+                rows(&|n| format!("{n},16667,{}", 9 + n % 2))
+            ),
+            ["a row is the mean of 9 to 10 frames (Count)", "", ""],
+        ),
+        (
+            format!("Frame Time (jiffies)\n{}", rows(&|_| "16".into())),
+            ["jiffies is no unit of time that is known", "--unit", ""],
+        ),
+        ("{\"traceEvents\": [{\"ph\": \"X\"}]}".into(), ["this is a trace of Chromium", "", ""]),
+        (
+            format!(
+                "[{}]",
+                rows(&|n| format!("{{\"dt\": {}}}", dt_ms(n))).trim_end().replace('\n', ",")
+            ),
+            [frames, "in ms", ""],
+        ),
+        (
+            rows(&|n| format!("{{\"frame\": {{\"time_ms\": {}}}, \"n\": {n}}}", t_ms(n))),
+            [clocks, clock, "left out: n"],
+        ),
+        (
+            rows(&|n| format!("{:.3}", t_ms(n - n % 2))),
+            ["28.", "19 rows have the time of the row before", clock],
+        ),
+    ] {
+        let said = said_of(&text, &TableOptions::default());
+        let first = text.lines().next().unwrap();
+        assert!(told.iter().all(|part| said.contains(part)), "{first}: {said}");
     }
+}
+
+#[test]
+fn a_caller_names_the_columns_the_unit_and_the_rows() {
+    let row =
+        |n: u32| format!("{};{};{}\n", f64::from(n) * 0.02, if n % 2 == 0 { "a" } else { "b" }, 20);
+    let text: String = (0..100).map(row).collect();
+    let named = |name: &str| Some(name.to_owned());
+    let usual = TableOptions { no_header: true, ..TableOptions::default() };
+    for (options, told) in [
+        (TableOptions { frame: named("3"), ..usual.clone() }, "read 100 frames in 2.00 s"),
+        (TableOptions { clock: named("1"), ..usual.clone() }, "read 100 frames in 1.98 s"),
+        (
+            TableOptions { clock: named("1"), unit: Some(Unit::Milliseconds), ..usual.clone() },
+            "in ms, as told",
+        ),
+        (
+            TableOptions { frame: named("3"), rows: Some([11, 60]), ..usual.clone() },
+            "rows 11 to 60 of 100",
+        ),
+        (
+            TableOptions { clock: named("1"), window_s: [Some(0.5), Some(1.0)], ..usual.clone() },
+            "rows 26 to 50 of 100",
+        ),
+        (
+            TableOptions {
+                clock: named("1"),
+                filter: vec![("2".into(), "b".into())],
+                ..usual.clone()
+            },
+            "read 50 frames in 1.96 s",
+        ),
+        (
+            TableOptions { frame: named("gpu"), ..usual.clone() },
+            "no column \"gpu\"; here are 1, 2, 3",
+        ),
+        (
+            TableOptions { frame: named("3"), unit: Some(Unit::Ticks), ..usual },
+            "frames are not counted in ticks",
+        ),
+    ] {
+        let said = said_of(&text, &options);
+        assert!(said.contains(told), "{options:?}: {said}");
+    }
+}
+
+#[test]
+fn records_of_android_are_read_by_both_of_their_clocks() {
+    let at = |n: u64| 1_001_692_724_088_218 + n * 16_666_667;
+    let row = |n: u64| format!("{},{},7,{},\n", u8::from(n == 3), at(n), at(n + 1));
+    let rows: String = (0..50).map(row).collect();
+    let mark = "---PROFILEDATA---";
+    let header = "Flags,IntendedVsync,Other,FrameCompleted,";
+    let stats =
+        format!("Stats since: 1ns\n\n{mark}\n{header}\n{rows}{mark}\n{mark}\n{header}\n{mark}\n");
+    let said = said_of(&stats, &TableOptions::default());
+    assert!(
+        said.starts_with("read 49 frames in 0.817 s: 58.8 a second, longest 33.3 ms (Android)"),
+        "{said}"
+    );
+    let trace = &traces("a", &stats)[0];
+    let late = frames(trace).iter().all(|it| it.displayed_ns == Some(it.began_ns + 16_666_667));
+    assert!(late && trace.missing_display().is_none());
+    let row = |n: u64| format!("{}\t{}\t{}\n", at(n), at(n + 1), at(n) + 5);
+    let pending = "1001692724088218\t9223372036854775807\t0\n";
+    let rows: String = (0..50).map(row).collect();
+    let flinger = format!("16666666\n0\t0\t0\n{rows}{pending}");
+    let said = said_of(&flinger, &TableOptions::default());
+    assert!(said.starts_with("read 50 frames in 0.817 s: 60.0 a second"), "{said}");
+}
+
+#[test]
+fn a_log_without_any_display_time_or_with_an_uptime_first_is_read() {
+    let rows: String = (0..50).map(|n| format!("16.7,{},NA,NA\n", n)).collect();
+    let text =
+        format!("MsBetweenPresents,TimeInMs,MsBetweenDisplayChange,MsUntilDisplayed\n{rows}");
+    let trace = &traces("a", &text)[0];
+    assert!(trace.missing_display().is_some_and(|it| it.contains("no display times")));
+    assert!(frames(trace).iter().all(|it| it.displayed_ns.is_some()));
+    let row = |n: u64| format!("60,16.7,5,90,{}\n", n * 100_000_000);
+    let rows: String = (1..50).map(row).collect();
+    let text = format!(
+        "os,cpu\nA,B\nfps,frametime,cpu_load,gpu_load,elapsed\n60,93000000.5,5,90,0\n{rows}"
+    );
+    let error = read("log", &text).err().unwrap().to_string();
+    assert!(error.contains("samples every 100 ms (log_interval)"), "{error}");
 }

@@ -50,6 +50,7 @@ fn the_first_difference_is_reported_with_place_and_growth() {
         "moved",
         "per_second",
         "reaches",
+        "read",
         "rows",
         "same",
         "worst",
@@ -302,4 +303,67 @@ fn headings_are_skipped_and_decimal_commas_are_numbers() {
     assert_eq!(run("points.csv commas.csv"), Some(0));
     assert_eq!(run("commas.csv near.csv"), Some(1));
     assert_eq!(run("commas.csv near.csv --relative 1e-3"), Some(0));
+}
+
+#[test]
+fn text_hashes_json_and_dumps_are_compared_at_their_tick() {
+    let folder = tempfile::tempdir().unwrap();
+    let told = |a: &str, b: &str, options: &str| {
+        fs::write(folder.path().join("a"), a).unwrap();
+        fs::write(folder.path().join("b"), b).unwrap();
+        let output = run_in(folder.path(), &format!("diff a b {options}"));
+        let said = String::from_utf8(output.stdout.clone()).unwrap();
+        (output.status.code(), said + &stderr(&output))
+    };
+    let object =
+        |n: u32, x: f64| format!("{{\"tick\": {n}, \"at\": {{\"x\": {x:?}}}, \"v\": 1.5}}\n");
+    let objects = |odd: u32| -> String {
+        (0..60).map(|n| object(n, f64::from(n * n) + if n == odd { 1.0 } else { 0.0 })).collect()
+    };
+    let array = |text: String| format!("[{}]", text.trim_end().replace('\n', ","));
+    let dump = |odd: u32| -> String {
+        (0..9)
+            .map(|n| {
+                format!("Frame: {}\nunit 7\n  hp: {}\n\n", 1000 + n, 90 - n - u32::from(n == odd))
+            })
+            .collect()
+    };
+    for (a, b, first) in [
+        (
+            "tick,frame_hash\n1,aa1c\n2,bb2d\n".into(),
+            "tick,frame_hash\n1,aa1c\n2,bb9d\n".into(),
+            "first at tick 2: frame_hash is bb2d in a and bb9d in b",
+        ),
+        (
+            "tick,Frame checksum\n1,17\n2,21\n".into(),
+            "tick,Frame checksum\n1,17\n2,22\n".into(),
+            "first at tick 2: Frame checksum is 21",
+        ),
+        (objects(99), objects(41), "first at tick 41: at.x is 1681.0 in a and 1682.0 in b"),
+        (objects(99), objects(0), "first at tick 0: at.x is 0.0 in a and 1.0 in b"),
+        (array(objects(99)), array(objects(5)), "first at tick 5: at.x is 25.0 in a"),
+        (dump(99), dump(5), "first at frame 1005, line 2: text is   hp: 85 in a"),
+    ] {
+        let (code, said) = told(&a, &b, "");
+        let squeezed = said.replace("  ", "");
+        assert_eq!(code, Some(1), "{said}");
+        assert!(squeezed.contains(&first.replace("  ", "")), "{said}");
+        let (code, said) = told(&a, &a, "");
+        assert_eq!(code, Some(0), "{said}");
+        assert!(said.contains("the same"), "{said}");
+    }
+    let (code, said) = told(&objects(99), &objects(41), "--rows 1..30 --format json");
+    assert_eq!(code, Some(0), "{said}");
+    let found: Value = serde_json::from_str(
+        said.split_once("}\n").map_or(&said, |_| &said[..said.rfind('}').unwrap() + 1]),
+    )
+    .unwrap();
+    assert_eq!(
+        (&found["read"]["a"]["rows"], &found["read"]["b"]["of"]),
+        (&serde_json::json!([1, 30]), &60.into())
+    );
+    let (code, said) = told("t,x\n0,1\n1,2\n2,9\n", "t,x\n0,1\n1,2\n2,8\n", "--end 2");
+    assert!(code == Some(0) && said.contains("rows 1 to 2 of 3"), "{said}");
+    let (code, said) = told("{\"a\": 1}\n{\"b\": 2}\n", "{\"a\": 1}\n", "");
+    assert!(code == Some(2) && said.contains("is not in the first object"), "{said}");
 }

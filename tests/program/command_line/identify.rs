@@ -65,7 +65,16 @@ fn a_log_that_cannot_be_read_is_refused_with_its_line_and_a_remedy() {
             "log.csv:1: no column \"x\"; here are \"tick\", \"y\"; name the coordinate's with --x-column",
         ),
         ("tick;x\n0;1\n", "log.csv:1: a log of 1 rows says too little"),
-        ("x\n1\n", "log.csv:1: no column \"tick\" and none \"t\""),
+        (
+            "t (h),x\n0,1\n",
+            "column \"t (h)\": h is no unit of time that is known; give it with --unit",
+        ),
+        (
+            "t,body,x\n0,a,1\n0,b,2\n1,a,3\n1,b,4\n",
+            "two rows at each time; --where body=a takes one",
+        ),
+        ("{\"t\": 0, \"x\": 1}\n[2]\n", "line 2: [2] is no row like the first"),
+        ("{\"traceEvents\": []}", "this is a trace of Chromium"),
         // A row of a trace has the name in a cell.
         (
             "tick,coordinate,q\n0,x,1\n",
@@ -74,7 +83,6 @@ fn a_log_that_cannot_be_read_is_refused_with_its_line_and_a_remedy() {
         ("tick,x\n0,1\n1,abc\n", "log.csv:3: column \"x\": \"abc\" is no number"),
         ("tick,x\n0,1\n1,NaN\n", "log.csv:3: column \"x\": \"NaN\" is no number"),
         ("tick,x\n0,1\n1\n", "log.csv:3: the row has 1 of the header's 2 cells"),
-        ("t,x\n0,1\n0.02,1\n", "log.csv:3: the row is 1.200 ticks of 60 Hz after the first"),
         ("tick,x\n0,1\n0,2\n", "log.csv:3: tick 0 does not follow the row before"),
         ("tick,x\n0,1\n1,2\n", "log.csv:1: a log of 2 rows says too little; log at least 4"),
         ("tick,x\n0,1\n1,1\n2,1\n3,1\n", "log.csv:2: nothing moves; log a motion"),
@@ -88,7 +96,11 @@ fn a_log_that_cannot_be_read_is_refused_with_its_line_and_a_remedy() {
     }
     for (arguments, told) in [
         ("identify nothing.csv --tick-hz 60", "cannot read the log nothing.csv"),
-        ("identify log.csv", "--tick-hz"),
+        ("identify log.csv", "the rows are ticks of a rate; give it with --tick-hz"),
+        ("identify log.csv --tick-hz 60 --where y=2", "no column \"y\"; here are"),
+        ("identify log.csv --tick-hz 60 --rows 7..9", "none of the 4 rows is taken"),
+        ("identify log.csv --unit h", "give ns, us, ms, s or ticks"),
+        ("identify log.csv --rows 0..3", "give the first and the last row, from 1"),
         ("identify log.csv --tick-hz 0", "give a rate above 0"),
         ("identify log.csv --tick-hz 60 --k -1", "give a number from 0 up"),
         ("identify log.csv --tick-hz 60 --mass 0", "give a number above 0"),
@@ -269,7 +281,7 @@ fn a_log_at_uneven_times_is_fitted_and_can_be_ported() {
     fs::write(folder.path().join("log.csv"), &log).unwrap();
     let output = run_in(folder.path(), "port --from log.csv --tick-hz 60 --to engine-box2d");
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
-    assert!(stderr(&output).starts_with("read 240 rows in "), "{}", stderr(&output));
+    assert!(stderr(&output).starts_with("read rows 1 to 240 of 240 in "), "{}", stderr(&output));
     // Even rows at another rate are not uneven.
     let even: String = (0..50).map(|n| format!("{:.6},{n}\n", f64::from(n) / 50.0)).collect();
     fs::write(folder.path().join("even.csv"), format!("t,x\n{even}")).unwrap();
@@ -293,4 +305,159 @@ fn a_motion_of_no_known_method_has_a_best_fit_with_errors() {
     assert!(text.contains("the best fit of a damped swing: 0.73"), "{text}");
     let hz = found["swing"]["undamped_hz"].as_f64().unwrap();
     assert!((0.72..0.75).contains(&hz) && found["swing"]["residual"].as_f64().unwrap() < 0.05);
+}
+
+/// Rows of semi-implicit Euler at 60 Hz with k 40 N/m, c 0.5 N s/m and 2 kg, as lines of `row`.
+fn rows_of(count: u32, row: impl Fn(u32, f64, f64) -> String) -> String {
+    let (mut x, mut v, mut text) = (1.0_f64, 0.0_f64, String::new());
+    for tick in 0..count {
+        text += &row(tick, x, v);
+        v += (-40.0 * x - 0.5 * v) / 2.0 / 60.0;
+        x += v / 60.0;
+    }
+    text
+}
+
+/// The first line that `identify` says of a log, and all that it says on standard error.
+fn read_as(log: &str, options: &str) -> (String, String) {
+    let folder = tempdir().unwrap();
+    fs::write(folder.path().join("log.csv"), log).unwrap();
+    let output = run_in(folder.path(), &format!("identify log.csv {options}"));
+    let said = String::from_utf8(output.stdout.clone()).unwrap();
+    (said, stderr(&output))
+}
+
+const SPRING: &str = "--k 40 --c 0.5 --mass 2";
+
+#[test]
+fn a_log_is_read_in_any_form_that_its_rows_tell() {
+    let t = |tick: u32| f64::from(tick) / 60.0;
+    let ns = |tick: u32| 1_767_225_600_000_000_000_u64 + u64::from(tick) * 1_000_000_000 / 60;
+    let of_day = |tick: u32| {
+        let (s, ms) = (tick / 60, tick % 60 * 1000 / 60);
+        format!("2026-02-19T16:25:{s:02}.{ms:03}")
+    };
+    let object = |tick, x: f64, v: f64| {
+        format!("{{\"time\": {:?}, \"pos\": {{\"x\": {x:?}}}, \"v\": {v:?}}}\n", t(tick))
+    };
+    let entries = rows_of(90, object).trim_end().replace('\n', ",");
+    for (log, options, read) in [
+        (rows_of(90, |_, x, v| format!("{x:?},{v:?}\n")), "--tick-hz 60", "columns 1, 2"),
+        (rows_of(90, |_, x, v| format!("{x:?} {v:?}\n")), "--tick-hz 60", "columns 1, 2"),
+        (
+            rows_of(90, |n, x, v| format!("{:?} {x:?}  {v:?}\n", t(n))),
+            "",
+            "columns 1 (in seconds, by size), 2, 3",
+        ),
+        (
+            format!("# t x v\n{}", rows_of(90, |n, x, v| format!("{:?} {x:?} {v:?}\n", t(n)))),
+            "",
+            "columns t (in seconds, by size), x, v",
+        ),
+        (
+            format!(
+                "time (us),x,v,z\n{}",
+                rows_of(90, |n, x, v| format!("{:.0},{x:?},{v:?},0\n", 1e6 * t(n)))
+            ),
+            "",
+            "columns time (us) (in µs, by its heading), x, v; left out: z",
+        ),
+        (
+            format!("%time,position\n{}", rows_of(90, |n, x, _| format!("{},{x:?}\n", ns(n)))),
+            "",
+            "%time (in ns, by size)",
+        ),
+        (
+            format!("timestamp,x\n{}", rows_of(90, |n, x, _| format!("{},{x:?}\n", of_day(n)))),
+            "",
+            "(in ns, by its form)",
+        ),
+        (
+            format!("a,b,c\n{}", rows_of(90, |n, x, v| format!("{x:?},{v:?},{:?}\n", 1e3 * t(n)))),
+            "--t-column 3 --x-column a --v-column 2",
+            "columns c (in ms, by size), a, b",
+        ),
+        (
+            format!("dt_ms,x,v\n{}", rows_of(90, |_, x, v| format!("16.6666667,{x:?},{v:?}\n"))),
+            "--frame-column dt_ms",
+            "dt_ms (in ms, by its heading)",
+        ),
+        (rows_of(90, object), "", "columns time (in seconds, by size), pos.x, v"),
+        (
+            format!("{{\"mass\": 2, \"entries\": [{entries}]}}"),
+            "",
+            "columns time (in seconds, by size), pos.x, v",
+        ),
+        (format!("[{entries}]"), "--clock-column time", "rows 1 to 90 of 90"),
+    ] {
+        let (said, told) = read_as(&log, &format!("{SPRING} {options}"));
+        let first = log.lines().next().unwrap_or_default();
+        assert!(told.contains(read) && told.contains(" 60.0"), "{first}: {told}");
+        assert!(said.contains("0.71"), "{first}: {said}");
+        // Milliseconds of a day make uneven rows.
+        let is_exact = !first.contains("timestamp");
+        assert_eq!(
+            said.contains("semi-implicit") || said.contains("made by"),
+            is_exact,
+            "{first}: {said}"
+        );
+    }
+}
+
+#[test]
+fn rows_are_taken_by_number_time_and_cell_and_said() {
+    let row = |n, x: f64, v: f64| {
+        let t = f64::from(n) / 60.0;
+        format!("{t:?},a,{x:?},{v:?},7\n{t:?},b,{:?},0,7\n", f64::from(n))
+    };
+    let log = format!("time,body,x,v,other\n{}", rows_of(300, row));
+    let (said, told) = read_as(&log, &format!("{SPRING} --where body=a"));
+    assert!(said.starts_with("made by"), "{said}");
+    assert!(
+        told.contains("rows 1 to 599 of 600") && told.contains("left out: body, other"),
+        "{told}"
+    );
+    for (options, rows) in [
+        ("--rows 101..300", "rows 101 to 299 of 600"),
+        ("--start 1s --end 2.0", "rows 121 to 239 of 600"),
+    ] {
+        let (said, told) =
+            read_as(&log, &format!("{SPRING} --where body=a {options} --format json"));
+        let found: Value = serde_json::from_str(&said).unwrap_or_else(|_| panic!("{told}"));
+        assert!(told.contains(rows), "{options}: {told}");
+        assert_eq!(found["word"], "identified", "{options}: {found}");
+        assert_eq!(found["read"]["of"], 600, "{found}");
+        assert_eq!(found["read"]["left_out"], serde_json::json!(["body", "other"]), "{found}");
+        assert_eq!(found["read"]["unit"], "seconds", "{found}");
+    }
+    // A long log says what it leaves out.
+    let long =
+        format!("t,x\n{}", rows_of(3500, |n, x, _| format!("{:?},{x:?}\n", f64::from(n) / 60.0)));
+    let (_, told) = read_as(&long, SPRING);
+    assert!(
+        told.contains("rows 1 to 3001 of 3500") && told.contains("--start and --end"),
+        "{told}"
+    );
+}
+
+#[test]
+fn rows_that_step_alike_are_ticks_whatever_their_times() {
+    let late = |n: u32| f64::from(if n > 60 { n + 2 } else { n }) / 60.0;
+    let log = format!("t,x,v\n{}", rows_of(200, |n, x, v| format!("{:.6},{x:?},{v:?}\n", late(n))));
+    let (said, told) = read_as(&log, SPRING);
+    assert!(said.starts_with("made by"), "{said} {told}");
+    assert!(said.contains("step alike whatever their times (row 62 is 33.3 ms late)"), "{said}");
+    assert!(said.contains("a player sees: 0.7124 Hz"), "{said}");
+    let twice = |n: u32| f64::from(n.max(1) - 1) / 60.0;
+    let log = format!("t,x,v\n{}", rows_of(200, |n, x, v| format!("{:?},{x:?},{v:?}\n", twice(n))));
+    let (said, told) = read_as(&log, &format!("{SPRING} --tick-hz 60"));
+    assert!(said.starts_with("made by"), "{said} {told}");
+    assert!(said.contains("(rows 1 and 2 are both at 0 s)"), "{said}");
+    // A row that the logger lost is lost: the rows do not step alike.
+    let lost = rows_of(200, |n, x, v| match n {
+        60 => String::new(),
+        n => format!("{:?},{x:?},{v:?}\n", f64::from(n) / 60.0),
+    });
+    let (said, _) = read_as(&format!("t,x,v\n{lost}"), SPRING);
+    assert!(said.starts_with("made by") && !said.contains("step alike"), "{said}");
 }
