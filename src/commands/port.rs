@@ -13,8 +13,10 @@ use super::tick_rate::{rate_of_a_log, rate_of_a_step};
 use crate::regular_file;
 use crate::scene::MAX_SUBSTEPS;
 use crate::sim::integrators::{METHODS, Method};
+use crate::tools::identify::Identification;
 use crate::tools::port::{
-    DriveLimits, Ported, Setup, UI_SPRINGS, UiSpring, Wish, drive_limits, followers, setups,
+    Approach, DriveLimits, Ported, Setup, UI_SPRINGS, UiSpring, Wish, drive_limits, followers,
+    setups,
 };
 use crate::tools::{identify, port};
 
@@ -29,7 +31,8 @@ For each engine, port finds the settings with which its ticks show the wish:
   --frequency F --damping-ratio R  the motion that a player should see
   --from engine-X:KEY=VALUE,…      the motion of engine X with its own settings; substeps, tick_hz and
                                    mode are keys too
-  --from LOG.csv                   the motion in a log, read as by `regatta identify`
+  --from LOG.csv                   the motion in a log, read as by `regatta identify`; a chase gives
+                                   settings of followers
   --from lerp:0.1@60fps            a value that chases a target: also lerp-dt:20@30fps,
                                    smooth-damp:SECONDS and half-life:SECONDS
   --from friction:0.9@60fps        a velocity that keeps this fraction in each frame
@@ -227,6 +230,13 @@ pub(super) fn run(args: &PortArgs) -> Result<(), Error> {
             let log = args.read.read(&path, args.step.or(args.tick_hz), Some(USUAL_HZ))?;
             (tick_hz, read) = (log.tick_hz(), Some(log.taken().clone()));
             let found = identify(&log, &args.read.body(args.mass), tick_hz);
+            if let Some(half_life_s) = found.as_ref().and_then(Identification::chase_half_life_s)
+                && !args.drive
+            {
+                let approach = Approach { half_life_s };
+                let ports = followers(approach, None);
+                return args.format.print(&report::followers(approach, &ports, args.format));
+            }
             let seen = found.and_then(|found| found.effective).filter(|seen| seen.omega > 0.0);
             let none = || {
                 Error::mistake(format!(

@@ -12,6 +12,7 @@ mod effective;
 mod fit;
 mod logged;
 mod motion;
+mod simplest;
 mod swing;
 
 use candidates::candidates;
@@ -22,6 +23,8 @@ pub(crate) use effective::SLOW;
 use fit::{Fit, fit};
 pub use logged::{Log, LogError, LogRow, LogSetting, LoggedBody};
 pub(crate) use motion::run;
+pub use simplest::SimpleMotion;
+use simplest::{refusal, simplest};
 pub use swing::FittedSwing;
 use swing::fitted_swing;
 
@@ -84,6 +87,10 @@ pub struct Identification {
     pub from_exact: Option<(f64, f64)>,
     /// Why the rows count as ticks although their times are uneven, with the row that is late.
     pub rows_are_ticks: Option<String>,
+    /// The simple motion that explains the log as well as a spring does, so that no method is searched.
+    pub simple: Option<SimpleMotion>,
+    /// Why no motion is named, if the method is unknown.
+    pub unexplained: Option<String>,
     /// The nearest damped swing, if the method is unknown.
     pub swing: Option<FittedSwing>,
     /// The motion that a player sees. `None` if it resembles neither a damped spring nor a body approaching its last
@@ -119,9 +126,22 @@ pub fn identify(log: &Log, body: &LoggedBody, tick_hz: f64) -> Option<Identifica
             });
         }
     }
-    let swing = fitted_swing(log, body).filter(|swing| swing.residual <= NO_SWING);
+    let swing = fitted_swing(log, body);
+    if let (true, Some(simple)) = (body.is_unknown(), simplest(log, swing.as_ref())) {
+        return Some(Identification { simple: Some(simple), ..Identification::unknown(body) });
+    }
+    let refused = swing.as_ref().and_then(|swing| refusal(log, swing));
+    let unexplained = refused.clone().filter(|_| body.is_unknown());
+    let swing =
+        swing.filter(|swing| swing.residual <= NO_SWING && refused.is_none() || !body.is_unknown());
+    let of_swing = || match swing {
+        Some(swing) => Some(Identification::of_swing(swing, body, tick_hz)),
+        None => unexplained
+            .clone()
+            .map(|why| Identification { unexplained: Some(why), ..Identification::unknown(body) }),
+    };
     if log.is_uneven() {
-        return Some(Identification::of_swing(swing?, body, tick_hz));
+        return of_swing();
     }
     let resting = |rest: f64| LoggedBody { rest: Some(rest), ..body.clone() };
     let usual = resting(body.rest.unwrap_or(0.0));
@@ -138,7 +158,13 @@ pub fn identify(log: &Log, body: &LoggedBody, tick_hz: f64) -> Option<Identifica
         let told = told.filter(|it| it.conclusion == Conclusion::Identified);
         found = told.map(|it| Identification { supposes_start_at_rest: true, ..it }).or(found);
     }
-    found.or_else(|| Some(Identification::of_swing(swing?, body, tick_hz)))
+    match found {
+        Some(found) if found.conclusion == Conclusion::Unknown && swing.is_none() => {
+            Some(Identification { unexplained, ..found })
+        }
+        Some(found) => Some(found),
+        None => of_swing(),
+    }
 }
 
 /// Identifies the method with the body as given. The fit of an unknown rest starts at `first_rest`.
@@ -157,7 +183,11 @@ fn identify_with(
     };
     let of = |fits: &[&(Candidate, Fit)]| fits.iter().map(|(candidate, _)| *candidate).collect();
     let (is_spring_fitted, is_rest_fitted) = (body.spring.is_none(), body.rest.is_none());
-    let body = best_fit.body.clone();
+    let mut body = best_fit.body.clone();
+    if conclusion == Conclusion::Unknown && is_spring_fitted {
+        // Only the swing that is named may be compared with its equation.
+        body.spring = swing.and_then(|swing| swing.seen.spring());
+    }
     let tick_s = 1.0 / tick_hz;
     let swing = swing.filter(|_| conclusion == Conclusion::Unknown);
     let effective = match conclusion {
@@ -181,6 +211,8 @@ fn identify_with(
         is_rest_fitted,
         supposes_start_at_rest: false,
         rows_are_ticks: None,
+        simple: None,
+        unexplained: None,
         from_exact: is_identified.then(|| from_exact(log, best_fit, tick_s)).flatten(),
         swing,
         effective,
@@ -205,21 +237,43 @@ impl Identification {
         let fitted = LoggedBody { spring: body.spring.or(spring), ..body.clone() };
         let exact = Effective::exact(&fitted);
         Self {
+            rest: swing.rest,
+            swing: Some(swing),
+            effective: Some(swing.seen),
+            exact,
+            recommended: recommended(&fitted, 1.0 / tick_hz, exact),
+            ..Self::unknown(body)
+        }
+    }
+
+    /// Returns the half-life of a chase in seconds, if the motion is one.
+    pub fn chase_half_life_s(&self) -> Option<f64> {
+        match self.simple {
+            Some(SimpleMotion::Chase { half_life_s, .. }) => Some(half_life_s),
+            _ => None,
+        }
+    }
+
+    /// Returns the result for a log that shows nothing of the method.
+    fn unknown(body: &LoggedBody) -> Self {
+        Self {
             conclusion: Conclusion::Unknown,
             best: None,
             also: Vec::new(),
             unusual: Vec::new(),
             runner_up: None,
             is_spring_fitted: body.spring.is_none(),
-            rest: swing.rest,
+            rest: body.rest.unwrap_or(0.0),
             is_rest_fitted: body.rest.is_none(),
             supposes_start_at_rest: false,
-            rows_are_ticks: None,
             from_exact: None,
-            swing: Some(swing),
-            effective: Some(swing.seen),
-            exact,
-            recommended: recommended(&fitted, 1.0 / tick_hz, exact),
+            rows_are_ticks: None,
+            simple: None,
+            unexplained: None,
+            swing: None,
+            effective: None,
+            exact: None,
+            recommended: Vec::new(),
         }
     }
 }

@@ -38,6 +38,7 @@ mod judging;
 #[path = "../kept/mod.rs"]
 mod kept;
 mod keys;
+mod known_motions;
 mod laws;
 mod layouts;
 mod looks_right;

@@ -56,6 +56,9 @@ pub(super) fn object(found: Option<&Identification>, log: &Log, mass: f64) -> Va
         "read": taken_object(log.taken()),
         "supposes_start_at_rest": found.map(|found| found.supposes_start_at_rest),
         "from_exact_m": found.and_then(|found| found.from_exact).map(|(far, _)| far),
+        "motion": found.and_then(|found| found.simple).map(|motion| motion.in_words()),
+        "chase_half_life_s": found.and_then(Identification::chase_half_life_s),
+        "unexplained": found.and_then(|found| found.unexplained.as_deref()),
         "swing": found.and_then(|found| found.swing).map(|swing| json!({
             "frequency_hz": swing.seen.frequency_hz(),
             "undamped_hz": swing.seen.undamped_hz(),
@@ -184,6 +187,9 @@ fn listed(all: &[&Candidate]) -> String {
 /// Returns the first line, which is the method and its residual.
 fn verdict(found: &Identification, log: &Log) -> String {
     let residual = |fitted: &Fitted| format!("residual {:.1e}", fitted.residual);
+    if let Some(motion) = found.simple {
+        return motion.in_words();
+    }
     let Some(best) = &found.best else {
         return match log.is_uneven() {
             true => "unknown: the rows are at uneven times, and a method makes even ticks".into(),
@@ -227,8 +233,20 @@ pub(super) fn report_text(found: &Identification, log: &Log, mass: f64) -> Strin
         let late = if late.is_empty() { String::new() } else { format!(" ({late})") };
         lines.push(format!("the rows step alike whatever their times{late}, so they are ticks"));
     }
-    if *conclusion == Conclusion::Unknown && !log.is_uneven() {
-        lines.push(HINT.to_owned());
+    if let Some(half_life_s) = found.chase_half_life_s() {
+        let part = -libm::expm1(-std::f64::consts::LN_2 / half_life_s / log.tick_hz());
+        let (part, fps) = (significant(part, 4), significant(log.tick_hz(), 4));
+        lines.push(format!("as a lerp by {part} at {fps} frames per second"));
+    }
+    match &found.unexplained {
+        Some(why) => lines.push(format!("no motion that is known: {why}")),
+        None if *conclusion == Conclusion::Unknown
+            && !log.is_uneven()
+            && found.simple.is_none() =>
+        {
+            lines.push(HINT.to_owned());
+        }
+        None => {}
     }
     if let Some(swing) = &found.swing {
         let [hz, ratio] = swing.errors.map(|error| significant(error, 1));

@@ -506,6 +506,11 @@ pub struct LoggedBody {
 }
 
 impl LoggedBody {
+    /// Whether nothing is known about the body, so that it may have no spring at all.
+    pub(super) fn is_unknown(&self) -> bool {
+        *self == Self { v0: self.v0, ..Self::default() }
+    }
+
     /// Whether the body has a spring, known or not.
     pub fn has_spring(&self) -> bool {
         self.spring != Some([0.0; 2])

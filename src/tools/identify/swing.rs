@@ -27,6 +27,9 @@ pub struct FittedSwing {
     pub errors: [f64; 2],
     /// Root mean square of the residual of x, as a share of the largest distance from the rest.
     pub residual: f64,
+    /// The same in metres, and the correlation of successive residuals.
+    pub(super) rms: f64,
+    pub(super) lag: f64,
 }
 
 /// Stiffness and damping per unit of mass, the rest, and the coordinate and velocity of the first row.
@@ -148,6 +151,8 @@ pub(super) fn fitted_swing(log: &Log, body: &LoggedBody) -> Option<FittedSwing> 
         rest,
         errors: [omega_error / std::f64::consts::TAU, ratio_error],
         residual: (square / x.len() as f64).sqrt() / size,
+        rms: (square / x.len() as f64).sqrt(),
+        lag: super::simplest::lag(&off),
     };
     let numbers = [omega, c, rest, found.residual, omega_error, ratio_error];
     numbers.iter().all(|number| number.is_finite()).then_some(found)
