@@ -9,6 +9,7 @@ use super::help::flowing;
 use super::id::Id;
 use super::identify::LogArgs;
 use super::output::table::TableFormat;
+use super::terminal::print_status;
 use super::tick_rate::{rate_of_a_log, rate_of_a_step};
 use crate::regular_file;
 use crate::scene::MAX_SUBSTEPS;
@@ -225,7 +226,10 @@ pub(super) fn run(args: &PortArgs) -> Result<(), Error> {
             Error::mistake(format!("--from {}: {fault}", brief(written.as_ref())))
         })?,
         Some(WishSource::UiSpring { as_given, .. }) if args.drive => as_given,
-        Some(WishSource::UiSpring { shown, .. }) => shown,
+        Some(WishSource::UiSpring { shown, note, .. }) => {
+            note.iter().for_each(|note| print_status(note));
+            shown
+        }
         Some(WishSource::Log(path)) => {
             let log = args.read.read(&path, args.step.or(args.tick_hz), Some(USUAL_HZ))?;
             (tick_hz, read) = (log.tick_hz(), Some(log.taken().clone()));

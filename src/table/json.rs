@@ -50,10 +50,8 @@ pub(super) fn convert<R: BufRead>(mut input: R) -> Result<Converted<R>, String> 
         }
     }
     let first = String::from_utf8_lossy(&text).into_owned();
-    if first.trim_start().starts_with('{')
-        && let Ok(members) = members(&first)
-        && !members.iter().any(|(key, value)| key == "traceEvents" || is_table(value))
-    {
+    let is_object = first.trim_start().starts_with('{') && !first.contains("\"traceEvents\"");
+    if is_object && members(&first).is_ok() && has_more(&mut input).map_err(said)? {
         let mut lines = Lines::of(first.len(), input);
         lines.put_row(&first)?;
         return Ok(Converted::Lines(lines));
@@ -141,23 +139,18 @@ fn length(value: &str) -> usize {
     counted.and_then(Result::ok).map_or(0, |()| count)
 }
 
-/// Whether a member of an object is a table rather than a few numbers of a row.
-fn is_table(value: &str) -> bool {
-    let inner = || members(value).unwrap_or_default();
-    let has_rows = |value: &str| {
-        let mut is_of_rows = false;
-        let found = each(value, |_, element| Ok(is_of_rows |= element.starts_with(['[', '{'])));
-        found.is_ok() && is_of_rows || length(value) > MAX_VECTOR
-    };
-    match value.as_bytes().first() {
-        Some(b'[') => has_rows(value),
-        Some(b'{') => inner().iter().any(|(_, value)| value.starts_with('[') && has_rows(value)),
-        _ => false,
+/// Skips blank lines, and returns whether there is more.
+fn has_more(input: &mut impl BufRead) -> io::Result<bool> {
+    loop {
+        let bytes = input.fill_buf()?;
+        let blank = bytes.iter().take_while(|byte| byte.is_ascii_whitespace()).count();
+        match bytes.len() {
+            0 => return Ok(false),
+            all if blank < all => return Ok(true),
+            all => input.consume(all),
+        }
     }
 }
-
-/// Maximum number of numbers in a row's vector, which is as long as a matrix.
-const MAX_VECTOR: usize = 16;
 
 /// Returns the cells of an object or of an array, where objects and arrays in it have both names.
 fn flat(text: &str) -> Result<Vec<(String, &str)>, String> {
@@ -259,6 +252,9 @@ impl<R> Lines<R> {
             self.has_header |= is_first && cells.iter().all(|(_, cell)| cell.starts_with('"'));
             return self.put(cells.into_iter().map(|(_, cell)| cell));
         }
+        if cells.is_empty() {
+            return Err(NO_TABLE.into());
+        }
         if is_first {
             if ["ph", "ts", "pid"].iter().all(|of| cells.iter().any(|(name, _)| name == of)) {
                 return Err(OF_CHROMIUM.into());
@@ -306,7 +302,7 @@ impl<R> Lines<R> {
         let Some(((_, first), _)) = first else {
             let nested = members.iter().filter(|(_, value)| or_nested && value.starts_with('{'));
             let mut tables = nested.map(|(_, value)| self.put_document(value, false));
-            return tables.find(Result::is_ok).unwrap_or_else(|| Err(NO_TABLE.into()));
+            return tables.find(Result::is_ok).unwrap_or_else(|| self.put_row(text));
         };
         let is_of_rows = first[1..].trim_start().starts_with(['[', '{']);
         if is_of_rows {

@@ -6,6 +6,7 @@ use std::path::PathBuf;
 use super::{TARGET, Target};
 use crate::scene::{MAX_SUBSTEPS, clip};
 use crate::sim::integrators::{JointMode, Method, Setting};
+use crate::sim::number::significant;
 use crate::tools::port::{Approach, Friction, Key, Setup, UiSpring, Wish};
 
 /// The source of a wish.
@@ -13,8 +14,8 @@ pub(super) enum WishSource {
     /// Settings of an engine.
     Engine(EngineSettings),
     /// Settings of a user interface. `shown` is the motion that the interface shows, and `as_given` that of a spring
-    /// with these numbers. The interface may damp less than that spring.
-    UiSpring { shown: Wish, as_given: Wish },
+    /// with these numbers. The interface may damp less than that spring, as `note` says.
+    UiSpring { shown: Wish, as_given: Wish, note: Option<String> },
     /// A velocity of which a constant part remains after each frame.
     Friction(Friction),
     /// A value that chases its target, and the frame rate if it has one.
@@ -92,7 +93,7 @@ impl WishSource {
                 }))
             }
             "per-frame-decay" => of_decay(rest, tick_hz, mass_kg)
-                .map(|wish| WishSource::UiSpring { shown: wish, as_given: wish }),
+                .map(|wish| WishSource::UiSpring { shown: wish, as_given: wish, note: None }),
             "smooth-damp" => {
                 let seconds = above_0(rest, "s", "the smoothing time")?;
                 Ok(WishSource::Approach(Approach::of_smooth_time(seconds), None))
@@ -170,12 +171,19 @@ fn of_ui_spring(dialect: &UiSpring, written: &str, mass_kg: f64) -> Result<WishS
     };
     let shown = wish(&values)?;
     // The interface does not limit the numbers if its switch is on.
+    let mut switch = "";
     for (index, key) in dialect.keys.iter().enumerate() {
         if key.switch.is_some() && !given.contains(&index) {
-            values[index] = 1.0;
+            (values[index], switch) = (1.0, key.name);
         }
     }
-    Ok(WishSource::UiSpring { shown, as_given: wish(&values)? })
+    let as_given = wish(&values)?;
+    let [ratio, given] = [shown, as_given].map(|wish| significant(wish.damping_ratio, 4));
+    let note = (shown.damping_ratio < as_given.damping_ratio).then(|| {
+        let id = dialect.id;
+        format!("{id} shows damping ratio {ratio} here; with {switch}=true it is {given}")
+    });
+    Ok(WishSource::UiSpring { shown, as_given, note })
 }
 
 /// The settings of a spring in an engine.

@@ -282,6 +282,8 @@ fn a_list_or_table_is_read_by_its_size_heading_and_form() {
             ["jiffies is no unit of time that is known", "--unit", ""],
         ),
         ("{\"traceEvents\": [{\"ph\": \"X\"}]}".into(), ["this is a trace of Chromium", "", ""]),
+        ("{\"dt\": [16.7, 16.7, 33.4, 16.7]}".into(), ["4 frames in 0.0835 s", "in ms", ""]),
+        ("{\"dt\": 16.7, \"at\": [1, 2]}\n\n{\"dt\": 16.7}".into(), ["2 frames", "at.0, at.1", ""]),
         (
             format!(
                 "[{}]",

@@ -498,7 +498,7 @@ fn the_ports_of_a_log_say_what_was_read_and_take_its_rate() {
     let log = rows_of(90, |n, x, _| format!("{:?},{x:?}\n", f64::from(n) / 50.0));
     fs::write(folder.path().join("log.csv"), format!("t,x\n{log}")).unwrap();
     let output = run_in(folder.path(), "port --from log.csv --to engine-jolt --format json");
-    let found: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    let found: Value = serde_json::from_slice(&output.stdout).unwrap();
     assert_eq!(found["tick_hz"], 50.0);
     assert_eq!(found["read"]["rows"], serde_json::json!([1, 90]));
     assert_eq!(found["read"]["unit"], "seconds");

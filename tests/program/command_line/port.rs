@@ -310,3 +310,14 @@ fn per_frame_formulas_of_games_are_accepted_as_written() {
         assert!(stderr(&output).contains(told), "{wrong}: {}", stderr(&output));
     }
 }
+
+#[test]
+fn a_damping_that_an_interface_cuts_is_said() {
+    let from = "--from core-animation:mass=1,stiffness=850,damping=67.056";
+    let said = stderr(&run(&format!("port {from} --to motion")));
+    let told =
+        "core-animation shows damping ratio 1.000 here; with allowsOverdamping=true it is 1.150";
+    assert!(said.contains(told), "{said}");
+    let said = stderr(&run(&format!("port {from},allowsOverdamping=true --to motion")));
+    assert!(said.is_empty(), "{said}");
+}
