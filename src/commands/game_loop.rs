@@ -81,8 +81,8 @@ pub(super) struct LoopArgs {
     /// A trace, or several [default: all built-in ones]
     ///
     /// `regatta list traces` has the names. Anything else is read as a file: CSV of PresentMon, OCAT, CapFrameX,
-    /// FrameView, MangoHud, Unreal or FRAPS, or what Android prints of frames. Any other table or JSON needs a column of
-    /// frame times or of a clock, and a list has one a line. Give the option again for each.
+    /// FrameView, MangoHud, Unreal or FRAPS, or what Android prints of frames. Any other table or JSON needs a column
+    /// of frame times or of a clock, and a list has one a line. Give the option again for each.
     #[arg(long = "trace", value_name = "ID|FILE", value_parser = PathOrName(trace_names))]
     #[arg(hide_possible_values = true)]
     traces: Vec<PathBuf>,

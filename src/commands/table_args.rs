@@ -11,57 +11,57 @@ use crate::table::{TableOptions, Taken, Unit};
 #[command(next_help_heading = "How the table is read")]
 pub(super) struct TableArgs {
     /// The column of the times of frames, by name or number
-    #[arg(long, value_name = "NAME|N")]
+    #[arg(hide_short_help = true, long, value_name = "NAME|N")]
     frame_column: Option<String>,
 
     /// The column of a running clock, in place of times
-    #[arg(long, value_name = "NAME|N", conflicts_with = "frame_column")]
+    #[arg(hide_short_help = true, long, value_name = "NAME|N", conflicts_with = "frame_column")]
     clock_column: Option<String>,
 
     /// The unit of the times: ns, us, ms, s or ticks [default: found]
-    #[arg(long, value_name = "UNIT", value_parser = unit)]
+    #[arg(hide_short_help = true, long, value_name = "UNIT", value_parser = unit)]
     unit: Option<Unit>,
 
     /// The column of the tick's number [default: tick]
-    #[arg(long, value_name = "NAME|N")]
+    #[arg(hide_short_help = true, long, value_name = "NAME|N")]
     tick_column: Option<String>,
 
     /// The column of the time [default: t]
-    #[arg(long, value_name = "NAME|N", conflicts_with_all = ["clock_column", "frame_column"])]
+    #[arg(hide_short_help = true, long, value_name = "NAME|N", conflicts_with_all = ["clock_column", "frame_column"])]
     t_column: Option<String>,
 
     /// The column of the coordinate in metres [default: x]
-    #[arg(long, value_name = "NAME|N")]
+    #[arg(hide_short_help = true, long, value_name = "NAME|N")]
     x_column: Option<String>,
 
     /// The column of the velocity in metres per second [default: v]
-    #[arg(long, value_name = "NAME|N")]
+    #[arg(hide_short_help = true, long, value_name = "NAME|N")]
     v_column: Option<String>,
 
     /// The first line is already a row
-    #[arg(long)]
+    #[arg(hide_short_help = true, long)]
     no_header: bool,
 
     /// Take the rows from this time on, counted from the first row
-    #[arg(long, value_name = "s", value_parser = seconds)]
+    #[arg(hide_short_help = true, long, value_name = "s", value_parser = seconds)]
     start: Option<f64>,
 
     /// Take the rows before this time, counted from the first row
-    #[arg(long, value_name = "s", value_parser = seconds)]
+    #[arg(hide_short_help = true, long, value_name = "s", value_parser = seconds)]
     end: Option<f64>,
 
     /// Take these rows, such as 3001..8447
-    #[arg(long, value_name = "A..B", value_parser = rows)]
+    #[arg(hide_short_help = true, long, value_name = "A..B", value_parser = rows)]
     rows: Option<[u64; 2]>,
 
     /// Take the rows whose cell in COLUMN is VALUE
     ///
     /// Give it again for rows that must have both.
-    #[arg(long = "where", value_name = "COLUMN=VALUE", value_parser = filter)]
+    #[arg(hide_short_help = true, long = "where", value_name = "COLUMN=VALUE", value_parser = filter)]
     filter: Vec<(String, String)>,
 
     /// The separator of the cells: a character, tab or space [default: found]
-    #[arg(long, value_name = "SIGN", value_parser = separator)]
+    #[arg(hide_short_help = true, long, value_name = "SIGN", value_parser = separator)]
     separator: Option<u8>,
 }
 

@@ -135,7 +135,12 @@ fn members(text: &str) -> Result<Vec<(String, &str)>, String> {
 fn length(value: &str) -> usize {
     let mut count = 0;
     let is_array = value.starts_with('[');
-    let counted = is_array.then(|| each(value, |_, _| Ok(count += 1)));
+    let counted = is_array.then(|| {
+        each(value, |_, _| {
+            count += 1;
+            Ok(())
+        })
+    });
     counted.and_then(Result::ok).map_or(0, |()| count)
 }
 
@@ -314,7 +319,8 @@ impl<R> Lines<R> {
             let mut cells = Cells::default();
             each(value, |_, cell| {
                 cells.text.push_str(cell);
-                Ok(cells.ends.push(cells.text.len() as u32))
+                cells.ends.push(cells.text.len() as u32);
+                Ok(())
             })?;
             self.names.push(name.clone());
             columns.push(cells);

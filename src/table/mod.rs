@@ -174,9 +174,12 @@ impl<R: BufRead> Read for Text<R> {
     }
 }
 
+/// The text from the header on, whose first lines are read already.
+type Rest<R> = io::Chain<io::Cursor<Vec<u8>>, Text<R>>;
+
 /// A table, read row by row.
 pub struct TableReader<R> {
-    rows: csv::Reader<Bounded<io::Chain<io::Cursor<Vec<u8>>, Text<R>>>>,
+    rows: csv::Reader<Bounded<Rest<R>>>,
     header: ByteRecord,
     /// First row of a table without a header.
     first: Option<ByteRecord>,

@@ -108,7 +108,7 @@ impl Course {
     pub fn rises(&self) -> bool {
         self.count >= 4
             && !self.falls
-            && 2 * self.steps.len() as u64 >= self.count.min(MAX_VALUES as u64)
+            && 3 * self.steps.len() as u64 >= self.count.min(MAX_VALUES as u64)
     }
 
     /// Whether each step is exactly 1, as of a counter.

@@ -4,7 +4,7 @@
 //! residuals look like noise.
 
 use super::logged::Log;
-use super::swing::FittedSwing;
+use super::swing::{FittedSwing, lag};
 use crate::sim::least_squares;
 use crate::sim::number::significant;
 
@@ -139,13 +139,6 @@ fn spread(log: &Log) -> f64 {
     let n = log.rows().len() as f64;
     let mean = log.rows().iter().map(|row| row.x).sum::<f64>() / n;
     (log.rows().iter().map(|row| (row.x - mean) * (row.x - mean)).sum::<f64>() / n).sqrt()
-}
-
-/// Returns the correlation of successive residuals.
-pub(super) fn lag(residuals: &[f64]) -> f64 {
-    let of = |pairs: &mut dyn Iterator<Item = f64>| pairs.sum::<f64>();
-    of(&mut residuals.windows(2).map(|pair| pair[0] * pair[1]))
-        / of(&mut residuals.iter().map(|one| one * one)).max(f64::MIN_POSITIVE)
 }
 
 /// Returns the information criterion of a fit with `numbers` parameters.

@@ -152,10 +152,17 @@ pub(super) fn fitted_swing(log: &Log, body: &LoggedBody) -> Option<FittedSwing> 
         errors: [omega_error / std::f64::consts::TAU, ratio_error],
         residual: (square / x.len() as f64).sqrt() / size,
         rms: (square / x.len() as f64).sqrt(),
-        lag: super::simplest::lag(&off),
+        lag: lag(&off),
     };
     let numbers = [omega, c, rest, found.residual, omega_error, ratio_error];
     numbers.iter().all(|number| number.is_finite()).then_some(found)
+}
+
+/// Returns the correlation of successive residuals.
+pub(super) fn lag(residuals: &[f64]) -> f64 {
+    let of = |pairs: &mut dyn Iterator<Item = f64>| pairs.sum::<f64>();
+    of(&mut residuals.windows(2).map(|pair| pair[0] * pair[1]))
+        / of(&mut residuals.iter().map(|one| one * one)).max(f64::MIN_POSITIVE)
 }
 
 /// Returns the standard deviations of the first two parameters of a fit with these slopes, in the parameters' units.

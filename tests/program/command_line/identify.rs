@@ -107,7 +107,10 @@ fn a_log_that_cannot_be_read_is_refused_with_its_line_and_a_remedy() {
         ("identify log.csv --tick-hz 60 --c 1", "--k"),
         (&format!("identify {LOG} --tick-hz 60 --v-column vel"), "no column \"vel\"; here are"),
     ] {
-        let output = run(arguments);
+        let output = match arguments.contains(LOG) {
+            true => run(arguments),
+            false => run_in(folder.path(), arguments),
+        };
         assert_eq!(output.status.code(), Some(2), "{arguments}");
         assert!(stderr(&output).contains(told), "{arguments}: {}", stderr(&output));
     }

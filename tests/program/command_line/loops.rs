@@ -479,7 +479,7 @@ fn capframex_json_and_table_have_the_same_frames() {
     let two = rows("two.json");
     assert!(two.contains("two.json:game.exe-1,") && two.contains("two.json:game.exe-2,"), "{two}");
     for (text, told) in [
-        ("{", "no capture of CapFrameX"),
+        ("{", "this is no JSON"),
         ("{\"Runs\": []}", "there is no run in it"),
         ("{\"Runs\": [{\"CaptureData\": {\"MsBetweenPresents\": [\"x\"]}}]}", "frame 1: column"),
     ] {
