@@ -297,7 +297,7 @@ fn a_list_or_table_is_read_by_its_size_heading_and_form() {
         ),
         (
             rows(&|n| format!("{:.3}", t_ms(n - n % 2))),
-            ["28.", "19 rows have the time of the row before", clock],
+            ["27.8 a second", "20 rows have the time of the row before", clock],
         ),
     ] {
         let said = said_of(&text, &TableOptions::default());
