@@ -216,7 +216,7 @@ fn a_list_or_table_is_read_by_its_size_heading_and_form() {
     let rows = |row: &dyn Fn(usize) -> String| (0..40).map(|n| row(n) + "\n").collect::<String>();
     // Every tenth frame lasts two refreshes of 60 Hz.
     let t_ms = |n: usize| (n + n / 10) as f64 * 1e3 / 60.0;
-    let dt_ms = |n: usize| if n % 10 == 0 && n > 0 { 1e3 / 30.0 } else { 1e3 / 60.0 };
+    let dt_ms = |n: usize| if n.is_multiple_of(10) && n > 0 { 1e3 / 30.0 } else { 1e3 / 60.0 };
     let of_day = |n: usize| format!("12:00:{:06.3}", t_ms(n) / 1e3);
     let (clock, size) = ("the times are those of a running clock", "by size");
     let frames = "55.8 a second";
@@ -308,8 +308,9 @@ fn a_list_or_table_is_read_by_its_size_heading_and_form() {
 
 #[test]
 fn a_caller_names_the_columns_the_unit_and_the_rows() {
-    let row =
-        |n: u32| format!("{};{};{}\n", f64::from(n) * 0.02, if n % 2 == 0 { "a" } else { "b" }, 20);
+    let row = |n: u32| {
+        format!("{};{};{}\n", f64::from(n) * 0.02, if n.is_multiple_of(2) { "a" } else { "b" }, 20)
+    };
     let text: String = (0..100).map(row).collect();
     let named = |name: &str| Some(name.to_owned());
     let usual = TableOptions { no_header: true, ..TableOptions::default() };
