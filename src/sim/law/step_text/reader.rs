@@ -2,11 +2,10 @@
 
 use std::ops::Range;
 
+use super::method::{Function as OwnFunction, Input, Machine, Taken};
 use super::paths::{SMOOTH_DAMP, damped_velocity};
-use super::statements::Statement;
-use super::{
-    BUILT_IN, Carried, H, Line, OTHER_NAMES, STEP_NAMES, StepCall, StepText, TARGET, V, X,
-};
+use super::statements::{Statement, statements};
+use super::{BUILT_IN, Carried, H, Line, OTHER_NAMES, STEP_NAMES, StepText, TARGET, V, X};
 use crate::sim::law::expression::{Expression, Node, Scope, parse, parse_condition};
 use crate::sim::law::fault::{ExpressionFault, Parsed, Part, Remedy, fault, quoted};
 use crate::sim::law::function::Function;
@@ -20,8 +19,16 @@ const MAX_STEP_NAMES: usize = 64;
 /// The deepest nesting of blocks.
 const MAX_BLOCKS: usize = 32;
 
-/// The maximum number of calls of the acceleration in a step.
-const MAX_CALLS: usize = 64;
+/// The maximum number of functions of a text.
+const MAX_FUNCTIONS: usize = 16;
+
+/// The functions that a text may `use`.
+const SHARED: [(&str, &str); 4] = [
+    ("slope", include_str!("../../../../assets/methods/shared/slope.step")),
+    ("solve", include_str!("../../../../assets/methods/shared/solve.step")),
+    ("steady", include_str!("../../../../assets/methods/shared/steady.step")),
+    ("step-size", include_str!("../../../../assets/methods/shared/step-size.step")),
+];
 
 /// Names for the call of the acceleration.
 const ACCELERATION: [&str; 3] = ["a", "accel", "acceleration"];
@@ -38,8 +45,7 @@ struct Block {
     before: Values,
     /// The values at the end of the first branch, while the second branch is open.
     first: Option<Values>,
-    /// The guard of the lines around the block.
-    outside: Option<usize>,
+    is_loop: bool,
     /// Whether the block ends with the block around it, as an `else if` does.
     is_chained: bool,
 }
@@ -57,14 +63,26 @@ pub(super) struct Reader<'t> {
     values: Values,
     carried: Vec<usize>,
     blocks: Vec<Block>,
-    /// The first call of the acceleration, which makes the lines a method.
-    call: Option<Range<usize>>,
-    /// The nodes of the calls, and of their times.
-    calls: Vec<[usize; 2]>,
-    /// In a method, the node that tells whether the current lines run.
-    guard: Option<usize>,
+    /// The first call of the acceleration or setting of a body, which makes the lines a method.
+    method_at: Option<Range<usize>>,
+    inputs: Vec<Taken>,
+    takes_target: bool,
+    functions: Vec<OwnFunction>,
+    /// Whether the lines are those of a function.
+    is_function: bool,
+    reads_velocity: bool,
     /// Whether the value of `SmoothDamp` is the velocity that it leaves.
     damps_velocity: bool,
+}
+
+/// Returns the index of the statement that closes the block which the statement at `at` opens.
+fn end_of(all: &[Statement], at: usize) -> usize {
+    let mut depth = 0;
+    let is_end = |statement: &Statement| {
+        depth += statement.depth();
+        depth == 0
+    };
+    all[at..].iter().position(is_end).map_or(all.len(), |length| at + length)
 }
 
 /// The place that `SmoothDamp` leaves, until the velocity is assigned.
@@ -93,7 +111,7 @@ fn first_call(text: &str) -> Option<Range<usize>> {
 
 impl Scope for Reader<'_> {
     fn input(&self, name: &str) -> Option<usize> {
-        let index = self.index(name).filter(|index| *index != TARGET || self.call.is_none())?;
+        let index = self.index(name).filter(|index| self.may_read(*index))?;
         (self.is_carried[index] || self.values[index].is_some()).then_some(index)
     }
 
@@ -102,8 +120,21 @@ impl Scope for Reader<'_> {
     }
 
     fn why_not(&self, name: &str) -> Option<String> {
-        let is_target = self.call.is_some() && self.index(name) == Some(TARGET);
+        let is_target = self.index(name).is_some_and(|index| !self.may_read(index));
         is_target.then(|| "a method moves by `a(x, v)`, and has no target".to_owned())
+    }
+
+    fn constant(&self, name: &str) -> Option<f64> {
+        match name {
+            "pi" => Some(std::f64::consts::PI),
+            "nan" => Some(f64::NAN),
+            _ => None,
+        }
+    }
+
+    fn own_function(&self, name: &str) -> Option<(usize, Vec<bool>)> {
+        let index = self.functions.iter().rposition(|function| function.name == name)?;
+        Some((index, self.functions[index].inputs.clone()))
     }
 
     fn is_acceleration(&self, name: &str) -> bool {
@@ -126,42 +157,203 @@ impl Scope for Reader<'_> {
 }
 
 impl<'t> Reader<'t> {
-    /// Returns a reader that already knows the names that the text assigns.
-    pub(super) fn new(text: &'t str, statements: &[Statement]) -> Parsed<Self> {
-        let mut reader = Reader {
+    /// Reads a text.
+    pub(super) fn read(text: &'t str, all: &[Statement]) -> Parsed<StepText> {
+        let mut reader = Self::new(text, first_call(text), Vec::new());
+        reader.names = BUILT_IN.map(String::from).to_vec();
+        reader.is_carried = vec![true; BUILT_IN.len()];
+        reader.starts = vec![0.0; BUILT_IN.len()];
+        reader.values = vec![None; BUILT_IN.len()];
+        reader.carried = vec![X, V];
+        for statement in all {
+            if let Statement::Takes(input) = statement {
+                reader.take(input.clone())?;
+            }
+        }
+        reader.read_all(all)?;
+        reader.finish()
+    }
+
+    fn new(text: &'t str, method_at: Option<Range<usize>>, functions: Vec<OwnFunction>) -> Self {
+        Reader {
             text,
-            names: BUILT_IN.map(String::from).to_vec(),
-            is_carried: vec![true; BUILT_IN.len()],
-            starts: vec![0.0; BUILT_IN.len()],
+            names: Vec::new(),
+            is_carried: Vec::new(),
+            starts: Vec::new(),
             lines: Vec::new(),
             nodes: Expression::default(),
-            values: vec![None; BUILT_IN.len()],
-            carried: vec![X, V],
+            values: Vec::new(),
+            carried: Vec::new(),
             blocks: Vec::new(),
-            call: first_call(text),
-            calls: Vec::new(),
-            guard: None,
+            method_at,
+            inputs: Vec::new(),
+            takes_target: false,
+            functions,
+            is_function: false,
+            reads_velocity: false,
             damps_velocity: false,
-        };
-        for statement in statements.iter().cloned() {
+        }
+    }
+
+    /// Reads statements in order, after declaring all names that they assign.
+    fn read_all(&mut self, all: &[Statement]) -> Parsed<()> {
+        let mut at = 0;
+        while let Some(statement) = all.get(at) {
             match statement {
                 Statement::Assign { name, is_declared, value, .. } => {
-                    reader.declare(name, !is_declared, false)?;
-                    if let Some(velocity) = damped_velocity(text, &value) {
-                        reader.declare(velocity, true, false)?;
-                        if reader.index(DAMPED_PLACE).is_none() {
-                            reader.add_name(DAMPED_PLACE, false);
+                    let is_carried = !is_declared && !self.is_function;
+                    self.declare(name.clone(), is_carried, false)?;
+                    if let Some(velocity) = damped_velocity(self.text, value) {
+                        self.declare(velocity, is_carried, false)?;
+                        if self.index(DAMPED_PLACE).is_none() {
+                            self.add_name(DAMPED_PLACE, false);
                         }
                     }
                 }
-                Statement::Memory { name, .. } => reader.declare(name, true, true)?,
+                Statement::Memory { name, .. } => self.declare(name.clone(), true, true)?,
+                Statement::Function { .. } => at = end_of(all, at),
                 _ => {}
             }
+            at += 1;
         }
-        Ok(reader)
+        let mut at = 0;
+        while let Some(statement) = all.get(at) {
+            if let Statement::Function { name, inputs } = statement {
+                let end = end_of(all, at);
+                self.read_function(name.clone(), inputs.clone(), all, at + 1..end)?;
+                at = end;
+            } else {
+                self.read_statement(statement.clone())?;
+            }
+            at += 1;
+        }
+        Ok(())
+    }
+
+    fn is_method(&self) -> bool {
+        self.method_at.is_some()
+    }
+
+    /// Whether the lines may read an input that has a value.
+    fn may_read(&self, index: usize) -> bool {
+        self.is_function || index != TARGET || !self.is_method() || self.takes_target
+    }
+
+    /// Reads an input of the lines, such as `whole substeps`.
+    fn take(&mut self, span: Range<usize>) -> Parsed<()> {
+        let text = self.text[span.clone()].trim();
+        let name = text.strip_prefix("whole ").unwrap_or(text).trim();
+        let name = name.split('(').next().unwrap_or_default().trim_end();
+        let start = span.start + self.text[span.clone()].find(name).unwrap_or(0);
+        let span = start..start + name.len();
+        if name == "target" {
+            self.takes_target = true;
+        } else if let Some((_, input)) = Input::ALL.iter().find(|(known, _)| *known == name) {
+            self.method_at.get_or_insert(span.clone());
+            self.declare(span.clone(), false, false)?;
+            let index = self.index(name).unwrap_or(X);
+            self.values[index] = Some(0);
+            self.inputs.push(Taken { input: *input, name: index, span });
+        } else if !ACCELERATION.contains(&name) {
+            let known: Vec<&str> = Input::ALL.iter().map(|(name, _)| *name).collect();
+            let what = format!("no body gives a step `{}`", quoted(name));
+            let remedy = format!("take `a(x, v)`, `target`, {}", known.join(", "));
+            return fault(span, what, remedy);
+        }
+        Ok(())
+    }
+
+    /// Reads a function, whose lines are the statements in this range.
+    fn read_function(
+        &mut self,
+        name: Range<usize>,
+        inputs: Range<usize>,
+        all: &[Statement],
+        lines: Range<usize>,
+    ) -> Parsed<()> {
+        let word = &self.text[name.clone()];
+        self.expect_method(&name, "write its lines in the place of the call")?;
+        if !self.blocks.is_empty() || self.is_function || lines.end == all.len() {
+            let remedy = "end the blocks before it, and close it with `}`";
+            return fault(name, "the function stands in a block, or is not closed", remedy);
+        }
+        if self.functions.len() == MAX_FUNCTIONS {
+            let what = format!("the lines have more than {MAX_FUNCTIONS} functions");
+            return fault(name, what, "use fewer");
+        }
+        let mut reader = Self::new(self.text, self.method_at.clone(), Vec::new());
+        reader.is_function = true;
+        let (mut takes, mut at) = (Vec::new(), inputs.start);
+        while at < inputs.end {
+            let rest = &self.text[at..inputs.end];
+            let length = rest.find([',', '(']).unwrap_or(rest.len());
+            let input = rest[..length].trim_start();
+            let input = at + length - input.len()..at + length;
+            let input = input.start..input.start + self.text[input.clone()].trim_end().len();
+            let is_acceleration = rest[length..].starts_with('(');
+            let is_name = self.text[input.clone()].bytes().all(is_name_part);
+            if input.is_empty() || !is_name || takes.len() == MAX_STEP_NAMES {
+                return fault(
+                    inputs,
+                    "an input of the function is no name",
+                    "write `fn f(x, v) {`",
+                );
+            }
+            if !is_acceleration {
+                reader.declare(input, false, false)?;
+                reader.values.fill(Some(0));
+            }
+            takes.push(is_acceleration);
+            let closed = if is_acceleration {
+                rest.find(')').map_or(rest.len(), |at| at + 1)
+            } else {
+                length
+            };
+            let next = rest[closed..].find(|c: char| c != ',' && !c.is_ascii_whitespace());
+            at += next.map_or(rest.len(), |next| closed + next);
+        }
+        reader.functions = std::mem::take(&mut self.functions);
+        reader.read_all(&all[lines])?;
+        let Reader { names, lines, functions, .. } = reader;
+        if !matches!(lines.last(), Some(Line::Return(_))) {
+            return fault(name, "the function can end without a value", "end it with `return x`");
+        }
+        self.functions = functions;
+        self.functions.push(OwnFunction { name: word.to_owned(), inputs: takes, names, lines });
+        Ok(())
+    }
+
+    /// Adds the functions of a shared source.
+    fn use_shared(&mut self, span: Range<usize>) -> Parsed<()> {
+        let name = self.text[span.clone()].trim();
+        let start = span.start + self.text[span].find(name).unwrap_or(0);
+        let span = start..start + name.len();
+        let Some((_, source)) = SHARED.iter().find(|(known, _)| *known == name) else {
+            let known: Vec<&str> = SHARED.iter().map(|(known, _)| *known).collect();
+            let what = format!("nothing shared is called `{}`", quoted(name));
+            return fault(span, what, format!("write one of {}", known.join(", ")));
+        };
+        self.expect_method(&span, "write its lines in the place of the call")?;
+        let (text, _) = super::plain(source);
+        let mut reader = Reader::new(&text, Some(0..0), std::mem::take(&mut self.functions));
+        reader.read_all(&statements(&text)?)?;
+        self.functions = reader.functions;
+        Ok(())
+    }
+
+    /// Refuses a rule.
+    fn expect_method(&self, at: &Range<usize>, remedy: &str) -> Parsed<()> {
+        if self.is_method() {
+            return Ok(());
+        }
+        let what = format!("`{}` cannot stand in a rule", quoted(self.text[at.clone()].trim()));
+        fault(at.clone(), what, remedy)
     }
 
     fn index(&self, name: &str) -> Option<usize> {
+        if self.is_function {
+            return self.names.iter().position(|known| known == name);
+        }
         if STEP_NAMES.contains(&name) {
             return Some(H);
         }
@@ -188,7 +380,7 @@ impl<'t> Reader<'t> {
             return fault(span, what, "give it another name");
         }
         match self.index(name) {
-            Some(TARGET) => {
+            Some(TARGET) if !self.is_function => {
                 let remedy = "give the number another name, such as `goal`";
                 return fault(
                     span,
@@ -218,7 +410,8 @@ impl<'t> Reader<'t> {
         match statement {
             Statement::Assign { name, joins, value, is_declared } => {
                 // A game declares the initial value of `x` or `v` above the lines of its frames.
-                let index = self.index(&self.text[name.clone()]).filter(|index| *index <= V);
+                let index = self.index(&self.text[name.clone()]);
+                let index = index.filter(|index| *index <= V && !self.is_function);
                 let is_first = index.is_some_and(|index| self.values[index].is_none());
                 let start = match is_declared && is_first && self.blocks.is_empty() {
                     true => self
@@ -249,15 +442,37 @@ impl<'t> Reader<'t> {
                 Ok(())
             }
             Statement::If(condition) => self.open(condition, false),
+            Statement::While(word, condition) => {
+                self.expect_method(&word, "write the lines of one step, which has no loops")?;
+                self.open_loop(condition)
+            }
+            Statement::Return { word, value } => {
+                if !self.is_function {
+                    let what = "`return` cannot stand in a step";
+                    return fault(word, what, "assign `x` and `v` in its place, or write `stay`");
+                }
+                let value = self.expression(value, false)?;
+                self.note_reads(&value);
+                self.lines.push(Line::Return(value));
+                Ok(())
+            }
+            Statement::Stop(word, fails) => {
+                self.expect_method(&word, "write the lines in an `if` of the opposite")?;
+                if self.is_function {
+                    return fault(word, "a function cannot end the step", "return `nan`");
+                }
+                self.lines.push(Line::Stop { fails });
+                Ok(())
+            }
+            Statement::Takes(_) | Statement::Function { .. } => Ok(()),
+            Statement::Use(name) => self.use_shared(name),
             Statement::Else(condition, brace) => {
-                let Some(block) = self.blocks.last_mut().filter(|block| block.first.is_none())
+                let open = self.blocks.last_mut();
+                let Some(block) = open.filter(|block| block.first.is_none() && !block.is_loop)
                 else {
                     return fault(brace, "`else` follows no block of an `if`", "remove it");
                 };
                 block.first = Some(std::mem::replace(&mut self.values, block.before.clone()));
-                let (taken, outside) = (block.condition, block.outside);
-                let not = self.push(Node::new(Op::Not, &[taken]), &brace);
-                self.guard = Some(self.nested_guard(outside, not, &brace));
                 self.lines.push(Line::Else);
                 match condition {
                     Some(condition) => self.open(condition, true),
@@ -285,7 +500,7 @@ impl<'t> Reader<'t> {
         let in_text = |found: ExpressionFault| {
             let at = found.span.start + span.start..found.span.end + span.start;
             let is_call = self.text[at.end..].trim_start().starts_with('(');
-            let known = if self.call.is_some() { "x, v or h" } else { "x, v, h or target" };
+            let known = if self.is_method() { "x, v or h" } else { "x, v, h or target" };
             let remedy = match found.remedy {
                 Remedy::Name { written, .. } if !is_call => Remedy::Words(format!(
                     "write {known}, or give it a value before: `let {} = 1`",
@@ -300,7 +515,8 @@ impl<'t> Reader<'t> {
 
     /// Returns the value of an expression made only of numbers.
     fn constant_value(&self, expression: &Expression, span: Range<usize>) -> Parsed<f64> {
-        let reads = expression.nodes.iter().any(|node| matches!(node.op, Op::Input | Op::Call));
+        let reads = |node: &Node| matches!(node.op, Op::Input | Op::Call | Op::Apply);
+        let reads = expression.nodes.iter().any(reads);
         let tape = || Tape::new(0, |_| false, &[(Part::Energy, expression)]).ok();
         let value = (!reads).then(tape).flatten().map(|tape| {
             let mut slots = vec![0.0; tape.slots];
@@ -353,7 +569,16 @@ impl<'t> Reader<'t> {
         if nodes.any(|node| matches!(node.op, Op::Divide) && is_0(node.arguments()[1])) {
             return fault(value, "it divides by 0", "divide by another number");
         }
-        let found = self.splice(&expression, value.start);
+        if self.inputs.iter().any(|taken| taken.name == index && !self.is_function) {
+            return fault(name, "a step cannot change its setting", "give it another name");
+        }
+        let found = match self.is_method() {
+            true => {
+                self.note_reads(&expression);
+                0
+            }
+            false => self.splice(&expression, value.start),
+        };
         let found = match joins {
             "" => found,
             joins => {
@@ -361,6 +586,12 @@ impl<'t> Reader<'t> {
                     let written = quoted(&self.names[index]);
                     let what = format!("`{written}` has no value yet");
                     return fault(name, what, format!("write `let {written} = 0` before"));
+                }
+                if self.is_method() {
+                    self.note_read(index);
+                    self.values[index] = Some(0);
+                    self.lines.push(Line::Assign { name: index, joins, value: expression });
+                    return Ok(());
                 }
                 let op = match joins {
                     "+" => Op::Add,
@@ -383,31 +614,53 @@ impl<'t> Reader<'t> {
             return fault(condition, what, "use fewer");
         }
         let expression = self.expression(condition.clone(), true)?;
-        let node = self.splice(&expression, condition.start);
-        let (before, outside) = (self.values.clone(), self.guard);
-        self.guard = Some(self.nested_guard(outside, node, &condition));
-        self.blocks.push(Block { condition: node, before, first: None, outside, is_chained });
+        let node = match self.is_method() {
+            true => {
+                self.note_reads(&expression);
+                0
+            }
+            false => self.splice(&expression, condition.start),
+        };
+        let before = self.values.clone();
+        self.blocks.push(Block {
+            condition: node,
+            before,
+            first: None,
+            is_loop: false,
+            is_chained,
+        });
         self.lines.push(Line::If(expression));
         Ok(())
     }
 
-    /// Returns the node whose value is whether the lines within a block of this condition run.
-    fn nested_guard(
-        &mut self,
-        outside: Option<usize>,
-        condition: usize,
-        at: &Range<usize>,
-    ) -> usize {
-        match outside {
-            Some(outside) => self.push(Node::new(Op::And, &[outside, condition]), at),
-            None => condition,
+    fn open_loop(&mut self, condition: Range<usize>) -> Parsed<()> {
+        self.open(condition, false)?;
+        if let (Some(block), Some(Line::If(condition))) = (self.blocks.last_mut(), self.lines.pop())
+        {
+            block.is_loop = true;
+            self.lines.push(Line::While(condition));
+        }
+        Ok(())
+    }
+
+    /// Notes that a method reads these names, of which those without a value are carried.
+    fn note_reads(&mut self, expression: &Expression) {
+        let inputs = expression.nodes.iter().filter(|node| node.op == Op::Input);
+        inputs.for_each(|node| self.note_read(node.index));
+    }
+
+    fn note_read(&mut self, index: usize) {
+        if self.values[index].is_none() && !self.is_function {
+            self.reads_velocity |= index == V;
+            if index >= BUILT_IN.len() && !self.carried.contains(&index) {
+                self.carried.push(index);
+            }
         }
     }
 
     /// Closes a block. The values after the block are those of the branch taken.
     fn close(&mut self, block: Block, brace: &Range<usize>) {
-        let Block { condition, before, first, outside, is_chained: _ } = block;
-        self.guard = outside;
+        let Block { condition, before, first, .. } = block;
         let second = match first.is_some() {
             true => std::mem::take(&mut self.values),
             false => before.clone(),
@@ -416,6 +669,10 @@ impl<'t> Reader<'t> {
         self.values = before;
         for index in 0..self.names.len() {
             let branches = [first[index], second[index]];
+            if self.is_method() {
+                self.values[index] = branches[0].and(branches[1]);
+                continue;
+            }
             if branches[0] == branches[1] {
                 self.values[index] = branches[0];
                 continue;
@@ -477,29 +734,12 @@ impl<'t> Reader<'t> {
             found.map_or(node, |(_, number)| *number)
         };
         for node in before..self.nodes.nodes.len() {
-            let new = self.nodes.nodes[node].reading(number_of);
-            self.nodes.nodes[node] =
-                if new.op == Op::Call { self.guarded_call(&new, node) } else { new };
+            self.nodes.nodes[node] = self.nodes.nodes[node].reading(number_of);
         }
         number_of(self.nodes.nodes.len() - 1)
     }
 
-    /// Returns the node of a call of the acceleration. The call is guarded if the current lines are in a block.
-    fn guarded_call(&mut self, call: &Node, node: usize) -> Node {
-        let &[x, v, ref time @ ..] = call.arguments() else { return *call };
-        let index = self.calls.len();
-        self.calls.push([node, time.first().copied().unwrap_or(x)]);
-        let operands = [Some(x), Some(v), self.guard].into_iter().flatten().collect::<Vec<_>>();
-        let mut made = Node::new(Op::Call, &operands);
-        made.index = index;
-        made
-    }
-
     fn check_length(&self, at: Range<usize>) -> Parsed<()> {
-        if self.calls.len() > MAX_CALLS {
-            let what = format!("the lines call the acceleration more than {MAX_CALLS} times");
-            return fault(at, what, "write fewer");
-        }
         if self.nodes.nodes.len() <= 2 * MAX_OPERATIONS {
             return Ok(());
         }
@@ -522,10 +762,9 @@ impl<'t> Reader<'t> {
         }
         let mut carried = self.carried.clone();
         carried.sort_unstable();
-        let ends: Vec<usize> = carried.iter().map(|index| self.value(*index, &last)).collect();
-        // The calls come first, in the order written, including calls without effect.
-        let asked = [0, 1].map(|of| self.calls.iter().map(move |call| call[of]));
-        let outputs: Vec<usize> = asked.into_iter().flatten().chain(ends).collect();
+        let is_rule = !self.is_method();
+        let ends = carried.iter().filter(|_| is_rule);
+        let outputs: Vec<usize> = ends.map(|index| self.value(*index, &last)).collect();
         let whole = |node: usize| Expression {
             nodes: self.nodes.nodes[..=node].to_vec(),
             spans: self.nodes.spans[..=node].to_vec(),
@@ -533,25 +772,40 @@ impl<'t> Reader<'t> {
         };
         let expressions: Vec<Expression> = outputs.into_iter().map(whole).collect();
         let parts: Vec<_> = expressions.iter().map(|of| (Part::Energy, of)).collect();
-        let mut tape = Tape::new(self.names.len(), |input| input == H, &parts).or_else(|long| {
-            let (noun, most) = match long.are_switches {
-                true => ("corners and jumps", MAX_SWITCHES),
-                false => ("operations", MAX_OPERATIONS),
-            };
-            fault(last, format!("the lines have more than {most} {noun}"), "write fewer")
+        let tape = Tape::new(self.names.len(), |input| input == H, &parts).or_else(|long| {
+            match long.are_switches {
+                true => too_long(last.clone(), "corners and jumps", MAX_SWITCHES),
+                false => too_long(last.clone(), "operations", MAX_OPERATIONS),
+            }
         })?;
+        let machine = match is_rule {
+            true => Some(Machine::default()),
+            false => Machine::new(self.names.len(), &self.lines, &self.functions),
+        };
+        let machine = machine.map_or_else(|| too_long(last, "operations", MAX_OPERATIONS), Ok)?;
         let named = |input: usize| Carried {
             name: self.names[input].clone(),
             start: self.starts[input],
             input,
         };
         let carried = carried.into_iter().map(named).collect();
-        let times = tape.outputs.drain(..2 * self.calls.len()).skip(self.calls.len()).collect();
-        let Reader { names, lines, call, .. } = self;
-        let (source, calls) = (String::new(), Vec::new());
-        let left_out = None;
-        let mut text = StepText { source, names, lines, carried, tape, call, calls, left_out };
-        text.calls = StepCall::all(&text, times);
-        Ok(text)
+        let Reader { names, lines, method_at, inputs, functions, reads_velocity, .. } = self;
+        Ok(StepText {
+            source: String::new(),
+            names,
+            lines,
+            carried,
+            tape,
+            method_at,
+            inputs,
+            functions,
+            reads_velocity,
+            machine,
+            left_out: None,
+        })
     }
+}
+
+fn too_long<T>(at: Range<usize>, noun: &str, most: usize) -> Parsed<T> {
+    fault(at, format!("the lines have more than {most} {noun}"), "write fewer")
 }
