@@ -34,8 +34,8 @@ pub(in crate::sim) use registers::LawLanes;
 pub use registers::Registers;
 pub(crate) use step_text::{AT_TARGET, Frame, NO_RETURN, Powers, SwitchKind, remembers_place};
 pub use step_text::{
-    Carried, Input, LinearRule, MAX_STEP_BYTES, OwnLines, RuleBody, StepCall, StepCode, StepMap,
-    StepRegisters, StepText,
+    Carried, General, Input, LinearRule, MAX_STEP_BYTES, OwnLines, Request, RuleBody, StepCall,
+    StepCode, StepMap, StepRegisters, StepText,
 };
 pub use tape::MAX_OPERATIONS;
 pub use text::{CoordinateText, LawText, Layout};

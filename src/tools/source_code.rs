@@ -123,7 +123,7 @@ pub fn step_lines(method: &Method) -> Result<String, NoSourceCode> {
     let program = program(method, language, Precision::Double)?;
     let header = header::lines(method, &program, language);
     let header = header.iter().map(|line| format!("# {line}").trim_end().to_owned() + "\n");
-    Ok(header.collect::<String>() + "\n" + &program::with_shared(method.code))
+    Ok(header.collect::<String>() + "\n" + method.code)
 }
 
 /// Returns the function `rule` of a source, below a comment of these paragraphs.

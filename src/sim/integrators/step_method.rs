@@ -3,7 +3,10 @@
 use super::failure::StepFailure;
 use super::integrator::Override;
 use super::prelude::*;
-use crate::sim::law::{Input, StepRegisters, StepText};
+use super::shared::newton::Newton;
+use super::shared::slopes::Slopes;
+use super::shared::stages::Stages;
+use crate::sim::law::{General, Input, Request, StepRegisters, StepText};
 use crate::sim::system::{EngineSettings, Pursuit};
 
 /// A method made of lines that call the acceleration, or take the target or the settings of their body.
@@ -13,17 +16,26 @@ pub(super) struct StepMethod<V> {
     lines: Option<(&'static StepText, StepRegisters)>,
     /// K and c of a joint, if they override the body's.
     joint: Option<[f64; 2]>,
-    q: V,
-    v: V,
+    at: State<V>,
+    along: State<V>,
     a: V,
+    newton: Option<Box<Newton<V, 1>>>,
+    slopes: Slopes<V>,
 }
 
 impl<V: Vector> StepMethod<V> {
-    /// Returns the method of these lines, for coordinates shaped `like` these.
-    pub(super) fn of(lines: &'static StepText, like: &V) -> Self {
+    /// Returns the method of these lines, for coordinates shaped `like` these, with this coupling.
+    pub(super) fn of(lines: &'static StepText, like: &V, coupling: Coupling) -> Self {
         let registers = lines.method_registers(like.components().len());
-        let [q, v, a] = [(); 3].map(|()| like.clone());
-        Self { lines: Some((lines, registers)), joint: None, q, v, a }
+        let solves = lines.uses(General::Solve);
+        let newton = solves.then(|| Box::new(Newton::new(like, coupling)));
+        Self { lines: Some((lines, registers)), newton, ..Self::without_lines(like) }
+    }
+
+    fn without_lines(like: &V) -> Self {
+        let state = State { q: like.clone(), v: like.clone() };
+        let (a, slopes) = (like.clone(), Slopes::new(like));
+        Self { lines: None, joint: None, at: state.clone(), along: state, a, newton: None, slopes }
     }
 
     fn advance<S: System<Vector = V>>(
@@ -35,7 +47,7 @@ impl<V: Vector> StepMethod<V> {
         state: &mut StateOf<S>,
     ) -> Stepped {
         let refused = |reason| Err(StepFailure::Refused { reason });
-        let Self { lines, joint, q, v, a } = self;
+        let Self { lines, joint, at, along, a, newton, slopes } = self;
         let Some((lines, registers)) = lines else {
             return refused("it was built without its card");
         };
@@ -80,12 +92,36 @@ impl<V: Vector> StepMethod<V> {
             lines.set_input(registers, Input::Substeps, i, f64::from(substeps));
         });
         let moved = [state.q.components_mut(), state.v.components_mut()];
-        let has_ended = lines.step_method(registers, h, moved, |since, at, with, found| {
-            q.components_mut().copy_from_slice(at);
-            v.components_mut().copy_from_slice(with);
-            system.acceleration(t + since, q, v, a);
-            found.copy_from_slice(a.components());
+        let mut solved = Ok(());
+        let has_ended = lines.step_method(registers, h, moved, |since, request, [q, v], found| {
+            let t = t + since;
+            at.q.components_mut().copy_from_slice(q);
+            at.v.components_mut().copy_from_slice(v);
+            match (request, &mut *newton) {
+                (Request::Solution { alpha, beta }, Some(newton)) if beta != 0.0 => {
+                    newton.base[0].assign(at);
+                    let stages = Stages { t: [t], alpha: [[alpha]], beta: [[beta]] };
+                    let done = newton.solve(system, &stages);
+                    if done.is_err() {
+                        solved = done;
+                    }
+                    found.copy_from_slice(newton.a[0].components());
+                }
+                (Request::Slope { along: [q, v], h, found: known }, _) => {
+                    along.q.components_mut().copy_from_slice(q);
+                    along.v.components_mut().copy_from_slice(v);
+                    a.components_mut().copy_from_slice(known);
+                    slopes.reach_for(h, at, a);
+                    slopes.differentiate(system, t, at, along, None, a);
+                    found.copy_from_slice(a.components());
+                }
+                _ => {
+                    system.acceleration(t, &at.q, &at.v, a);
+                    found.copy_from_slice(a.components());
+                }
+            }
         });
+        solved?;
         if has_ended { Ok(()) } else { refused("a loop of its lines has 65 536 turns in a step") }
     }
 }
@@ -93,8 +129,7 @@ impl<V: Vector> StepMethod<V> {
 impl<S: System<Vector: Vector>> Integrator<S> for StepMethod<S::Vector> {
     /// Refuses every step, because only the card knows the lines.
     fn new(like: &S::Vector) -> Self {
-        let [q, v, a] = [(); 3].map(|()| like.clone());
-        Self { lines: None, joint: None, q, v, a }
+        Self::without_lines(like)
     }
 
     fn step(&mut self, system: &S, t: f64, h: f64, state: &mut StateOf<S>) -> Stepped {

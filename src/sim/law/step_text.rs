@@ -17,7 +17,7 @@ pub use code::StepCode;
 pub(crate) use linear::{AT_TARGET, Frame, NO_RETURN, remembers_place};
 pub use linear::{LinearRule, RuleBody};
 use method::{Function, Machine, Taken};
-pub use method::{Input, StepCall};
+pub use method::{General, Input, Request, StepCall};
 use paths::Component;
 use plain::plain;
 pub(crate) use powers::Powers;
@@ -135,8 +135,8 @@ pub struct StepRegisters {
     /// The slots, coordinate after coordinate.
     slots: Vec<f64>,
     next: Vec<f64>,
-    /// The positions and the velocities of a call, and the accelerations there, with one number for each coordinate.
-    asked: [Vec<f64>; 3],
+    /// The answer to a request, with one number for each coordinate.
+    answer: Vec<f64>,
     /// For each level of blocks, whether each coordinate runs it.
     masks: Vec<bool>,
 }
@@ -254,7 +254,7 @@ impl StepText {
         let mut registers = StepRegisters {
             slots: vec![0.0; self.tape.slots],
             next: vec![0.0; self.carried.len()],
-            asked: [const { Vec::new() }; 3],
+            answer: Vec::new(),
             masks: Vec::new(),
         };
         for carried in &self.carried {
@@ -583,7 +583,9 @@ mod tests {
                     (0..3).for_each(|_| text.step(&mut registers, 0.1, 1.0));
                     let mut registers = text.method_registers(2);
                     let moved = [&mut [0.5, 1.0][..], &mut [0.0; 2]];
-                    text.step_method(&mut registers, 0.1, moved, |_, x, _, a| a.copy_from_slice(x));
+                    text.step_method(&mut registers, 0.1, moved, |_, _, [x, _], a| {
+                        a.copy_from_slice(x)
+                    });
                     let _ = (text.map(0.1, &vec![0.5; text.carried().len()], 1.0), text.code());
                 }
                 Err(fault) => assert!(text.get(fault.span).is_some(), "{text}"),

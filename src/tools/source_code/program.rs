@@ -101,17 +101,6 @@ const SHARED: [(&str, &str); 4] = [
     ("step-size", include_str!("../../../assets/methods/shared/step-size.step")),
 ];
 
-/// Returns a source with the shared functions in the place of the lines that use them.
-pub(super) fn with_shared(source: &str) -> String {
-    let shared = |line: &str| {
-        let name = line.strip_prefix("use ")?;
-        SHARED.iter().find(|(known, _)| *known == name).map(|(_, text)| *text)
-    };
-    let written =
-        |line| shared(line).map_or_else(|| format!("{line}\n"), |text| format!("\n{text}"));
-    source.lines().map(written).collect()
-}
-
 impl<'a> Program<'a> {
     /// Reads a source.
     ///

@@ -53,6 +53,49 @@ pub(super) struct Taken {
     pub(super) span: Range<usize>,
 }
 
+/// A request of a step to its body.
+#[derive(Clone, Copy, Debug)]
+pub enum Request<'r> {
+    /// The acceleration.
+    Acceleration,
+    /// The accelerations `a` of the state moved by `alpha a` and `beta a`, for all coordinates together.
+    Solution {
+        /// The weight of the accelerations in the positions, in s².
+        alpha: f64,
+        /// The weight of the accelerations in the velocities, in seconds.
+        beta: f64,
+    },
+    /// The derivative of the acceleration along a direction.
+    Slope {
+        /// The changes of the positions and of the velocities.
+        along: [&'r [f64]; 2],
+        /// The length in seconds of the step whose motion a difference suits.
+        h: f64,
+        /// The acceleration here.
+        found: &'r [f64],
+    },
+}
+
+/// A function for which the built-in methods have a general form, which steps use in place of its lines.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum General {
+    /// The solver of implicit methods.
+    Solve,
+    /// The derivative of the acceleration along a direction.
+    Slope,
+}
+
+impl General {
+    /// Returns the general form of a function of the shared sources.
+    pub(super) fn of(name: &str) -> Option<Self> {
+        match name {
+            "solve" => Some(Self::Solve),
+            "slope" => Some(Self::Slope),
+            _ => None,
+        }
+    }
+}
+
 /// A function of the lines. Its first names are its inputs.
 #[derive(Debug)]
 pub(super) struct Function {
@@ -61,6 +104,7 @@ pub(super) struct Function {
     pub(super) inputs: Vec<bool>,
     pub(super) names: Vec<String>,
     pub(super) lines: Vec<Line>,
+    pub(super) general: Option<General>,
 }
 
 /// A call of the acceleration.
@@ -81,9 +125,10 @@ enum Act {
         from: [usize; 3],
         table: usize,
     },
+    /// A request, at a position and with a velocity that are its first arguments.
     Call {
-        x: usize,
-        v: usize,
+        general: Option<General>,
+        from: Vec<usize>,
         time: usize,
         to: usize,
         index: usize,
@@ -119,6 +164,7 @@ pub(super) struct Machine {
     /// The number of levels of blocks and functions.
     levels: usize,
     calls: Vec<StepCall>,
+    generals: Vec<General>,
 }
 
 impl Machine {
@@ -248,12 +294,8 @@ impl Compiler<'_> {
                 // The value of an argument, which is its last operand.
                 Op::Argument => from[node.arguments().len() - 1],
                 Op::Call => {
-                    let (to, index) = (self.slot(), self.machine.calls.len());
-                    let is_repeated = self.repeats > 0;
-                    self.machine.calls.push(StepCall { part: f64::NAN, is_repeated });
                     let time = if node.arguments().len() > 2 { from[2] } else { from[0] };
-                    acts.push(Act::Call { x: from[0], v: from[1], time, to, index });
-                    to
+                    self.call(None, from[..2].to_vec(), time, acts)
                 }
                 Op::Apply => {
                     let mut arguments = Vec::new();
@@ -279,6 +321,22 @@ impl Compiler<'_> {
         found.last().copied()
     }
 
+    /// Compiles a request, and returns the slot of its value.
+    fn call(
+        &mut self,
+        general: Option<General>,
+        from: Vec<usize>,
+        time: usize,
+        acts: &mut Vec<Act>,
+    ) -> usize {
+        let (to, index) = (self.slot(), self.machine.calls.len());
+        let is_repeated = self.repeats > 0 || general == Some(General::Slope);
+        self.machine.calls.push(StepCall { part: f64::NAN, is_repeated });
+        self.machine.generals.extend(general);
+        acts.push(Act::Call { general, from, time, to, index });
+        to
+    }
+
     /// Compiles a call of a function, and returns the slot of its value.
     fn function(
         &mut self,
@@ -286,7 +344,11 @@ impl Compiler<'_> {
         mut slots: Vec<usize>,
         acts: &mut Vec<Act>,
     ) -> Option<usize> {
-        let Function { names, lines, .. } = &self.functions[index];
+        let Function { names, lines, general, .. } = &self.functions[index];
+        if general.is_some() {
+            let time = slots[0];
+            return Some(self.call(*general, slots, time, acts));
+        }
         while slots.len() < names.len() {
             slots.push(self.slot());
         }
@@ -303,7 +365,7 @@ struct Run<'r, F> {
     machine: &'r Machine,
     slots: &'r mut [f64],
     masks: &'r mut [bool],
-    asked: &'r mut [Vec<f64>; 3],
+    answer: &'r mut [f64],
     /// The number of coordinates.
     size: usize,
     h: f64,
@@ -313,7 +375,7 @@ struct Run<'r, F> {
     times: Option<&'r mut [f64]>,
 }
 
-impl<F: FnMut(f64, &[f64], &[f64], &mut [f64])> Run<'_, F> {
+impl<F: FnMut(f64, Request<'_>, [&[f64]; 2], &mut [f64])> Run<'_, F> {
     fn mask(&mut self, level: usize) -> &mut [bool] {
         &mut self.masks[level * self.size..][..self.size]
     }
@@ -351,8 +413,8 @@ impl<F: FnMut(f64, &[f64], &[f64], &mut [f64])> Run<'_, F> {
                         }
                     }
                 }
-                Act::Call { x, v, time, to, index } => {
-                    self.call([*x, *v, *time, *to], *index, level)
+                Act::Call { general, from, time, to, index } => {
+                    self.call(*general, from, [*time, *to, *index], level);
                 }
                 Act::If { condition, yes, no } => {
                     for (acts, wanted) in [(yes, true), (no, false)] {
@@ -399,21 +461,35 @@ impl<F: FnMut(f64, &[f64], &[f64], &mut [f64])> Run<'_, F> {
         }
     }
 
-    fn call(&mut self, [x, v, time, to]: [usize; 4], index: usize, level: usize) {
+    fn call(
+        &mut self,
+        general: Option<General>,
+        from: &[usize],
+        [time, to, index]: [usize; 3],
+        level: usize,
+    ) {
         let size = self.size;
-        if !self.mask(level).contains(&true) {
-            return;
-        }
+        let Some(first) = self.mask(level).iter().position(|runs| *runs) else { return };
         if let Some(times) = &mut self.times
             && times[index].is_nan()
         {
             times[index] = self.slots[time * size];
         }
-        let [at, with, found] = &mut *self.asked;
-        at.copy_from_slice(&self.slots[x * size..][..size]);
-        with.copy_from_slice(&self.slots[v * size..][..size]);
-        (self.acceleration)(self.machine.calls[index].part * self.h, at, with, found);
-        self.slots[to * size..][..size].copy_from_slice(found);
+        let argument = |n: usize| &self.slots[from[n] * size..][..size];
+        let request = match general {
+            None => Request::Acceleration,
+            Some(General::Solve) => {
+                let [alpha, beta] = [2, 3].map(|n| argument(n)[first]);
+                Request::Solution { alpha, beta }
+            }
+            Some(General::Slope) => {
+                let along = [argument(2), argument(3)];
+                Request::Slope { along, h: argument(4)[first], found: argument(5) }
+            }
+        };
+        let since = self.machine.calls[index].part * self.h;
+        (self.acceleration)(since, request, [argument(0), argument(1)], self.answer);
+        self.slots[to * size..][..size].copy_from_slice(self.answer);
     }
 }
 
@@ -433,6 +509,11 @@ impl StepText {
     /// coordinate.
     pub fn is_for_one_coordinate(&self) -> bool {
         self.machine.calls.iter().any(|call| call.is_repeated)
+    }
+
+    /// Whether a step uses this general form.
+    pub fn uses(&self, general: General) -> bool {
+        self.machine.generals.contains(&general)
     }
 
     /// Whether the method takes this setting.
@@ -461,7 +542,7 @@ impl StepText {
             let mut registers = self.method_registers(1);
             let (mut q, mut v) = ([0.0], [1.0]);
             self.set_input(&mut registers, Input::Substeps, 0, 1.0);
-            let still = |_: f64, _: &[f64], _: &[f64], found: &mut [f64]| found.fill(0.0);
+            let still = |_: f64, _: Request<'_>, _: [&[f64]; 2], found: &mut [f64]| found.fill(0.0);
             self.advance(&mut registers, 1.0, [&mut q, &mut v], still, Some(&mut times));
         }
         for (call, time) in self.machine.calls.iter_mut().zip(times) {
@@ -476,7 +557,7 @@ impl StepText {
         let mut registers = StepRegisters {
             slots: vec![0.0; self.slots() * coordinates],
             next: Vec::new(),
-            asked: [(); 3].map(|()| vec![0.0; coordinates]),
+            answer: vec![0.0; coordinates],
             masks: vec![false; self.machine.levels.max(1) * coordinates],
         };
         for (slot, number) in &self.machine.numbers {
@@ -488,7 +569,7 @@ impl StepText {
 
     /// Resets all carried numbers but `x` and `v` to their values before the first step.
     pub fn forget(&self, registers: &mut StepRegisters) {
-        let size = registers.asked[0].len();
+        let size = registers.answer.len();
         for carried in self.carried.iter().filter(|carried| carried.input > V) {
             registers.slots[carried.input * size..][..size].fill(carried.start);
         }
@@ -502,7 +583,7 @@ impl StepText {
         coordinate: usize,
         value: f64,
     ) {
-        let size = registers.asked[0].len();
+        let size = registers.answer.len();
         if let Some(taken) = self.inputs.iter().find(|taken| taken.input == input) {
             registers.slots[taken.name * size + coordinate] = value;
         }
@@ -510,19 +591,19 @@ impl StepText {
 
     /// Sets the target of a coordinate.
     pub fn set_target(&self, registers: &mut StepRegisters, coordinate: usize, value: f64) {
-        let size = registers.asked[0].len();
+        let size = registers.answer.len();
         registers.slots[TARGET * size + coordinate] = value;
     }
 
     /// Steps all coordinates by `h` seconds, and replaces positions and velocities. The arguments of `acceleration` are
-    /// the time since the start of the step in seconds, positions, velocities and the output. Returns whether the loops
+    /// the time since the start of the step in seconds, the request, positions with velocities, and the output. Returns whether the loops
     /// of the lines ended by themselves. Never allocates.
     pub fn step_method(
         &self,
         registers: &mut StepRegisters,
         h: f64,
         moved: [&mut [f64]; 2],
-        acceleration: impl FnMut(f64, &[f64], &[f64], &mut [f64]),
+        acceleration: impl FnMut(f64, Request<'_>, [&[f64]; 2], &mut [f64]),
     ) -> bool {
         self.advance(registers, h, moved, acceleration, None)
     }
@@ -532,17 +613,17 @@ impl StepText {
         registers: &mut StepRegisters,
         h: f64,
         [q, v]: [&mut [f64]; 2],
-        acceleration: impl FnMut(f64, &[f64], &[f64], &mut [f64]),
+        acceleration: impl FnMut(f64, Request<'_>, [&[f64]; 2], &mut [f64]),
         times: Option<&mut [f64]>,
     ) -> bool {
-        let StepRegisters { slots, asked, masks, .. } = registers;
+        let StepRegisters { slots, answer, masks, .. } = registers;
         let size = q.len();
         slots[X * size..][..size].copy_from_slice(q);
         slots[V * size..][..size].copy_from_slice(v);
         slots[H * size..][..size].fill(h);
         masks[..size].fill(true);
         let machine = &self.machine;
-        let mut run = Run { machine, slots, masks, asked, size, h, turns: 0, acceleration, times };
+        let mut run = Run { machine, slots, masks, answer, size, h, turns: 0, acceleration, times };
         run.run(&machine.acts, 0, 0);
         let has_ended = run.turns < MAX_TURNS;
         q.copy_from_slice(&slots[X * size..][..size]);

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use super::method::{Function as OwnFunction, Input, Machine, Taken};
+use super::method::{Function as OwnFunction, General, Input, Machine, Taken};
 use super::paths::{SMOOTH_DAMP, damped_velocity};
 use super::statements::{Statement, statements};
 use super::{BUILT_IN, Carried, H, Line, OTHER_NAMES, STEP_NAMES, StepText, TARGET, V, X};
@@ -319,7 +319,13 @@ impl<'t> Reader<'t> {
             return fault(name, "the function can end without a value", "end it with `return x`");
         }
         self.functions = functions;
-        self.functions.push(OwnFunction { name: word.to_owned(), inputs: takes, names, lines });
+        self.functions.push(OwnFunction {
+            name: word.to_owned(),
+            inputs: takes,
+            names,
+            lines,
+            general: None,
+        });
         Ok(())
     }
 
@@ -335,9 +341,13 @@ impl<'t> Reader<'t> {
         };
         self.expect_method(&span, "write its lines in the place of the call")?;
         let (text, _) = super::plain(source);
+        let before = self.functions.len();
         let mut reader = Reader::new(&text, Some(0..0), std::mem::take(&mut self.functions));
         reader.read_all(&statements(&text)?)?;
         self.functions = reader.functions;
+        for function in &mut self.functions[before..] {
+            function.general = General::of(&function.name);
+        }
         Ok(())
     }
 
