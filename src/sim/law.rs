@@ -32,7 +32,9 @@ pub use expression::{MAX_BYTES, MAX_DEPTH};
 pub use fault::{ExpressionFault, LawFault, Part, Remedy};
 pub(in crate::sim) use registers::LawLanes;
 pub use registers::Registers;
-pub(crate) use step_text::{AT_TARGET, Frame, NO_RETURN, Powers, SwitchKind, remembers_place};
+pub(crate) use step_text::{
+    AT_TARGET, Frame, NO_RETURN, Powers, SHARED_STEPS, SwitchKind, remembers_place,
+};
 pub use step_text::{
     Carried, General, Input, LinearRule, MAX_STEP_BYTES, OwnLines, Request, RuleBody, StepCall,
     StepCode, StepMap, StepRegisters, StepText,

@@ -18,11 +18,12 @@ pub(crate) use linear::{AT_TARGET, Frame, NO_RETURN, remembers_place};
 pub use linear::{LinearRule, RuleBody};
 use method::{Function, Machine, Taken};
 pub use method::{General, Input, Request, StepCall};
-use paths::Component;
+use paths::of_one_component;
 use plain::plain;
 pub(crate) use powers::Powers;
 use reader::Reader;
-use statements::{Statement, statements};
+pub(crate) use reader::SHARED_STEPS;
+use statements::statements;
 
 mod code;
 mod linear;
@@ -117,8 +118,8 @@ pub struct StepText {
     carried: Vec<Carried>,
     /// The operations of a step. The outputs are the carried numbers after the step, in the order of `carried`.
     tape: Tape,
-    /// The byte range of the first call of the acceleration, or of the first setting that only a method has; `None` in a
-    /// rule.
+    /// The byte range of the first call of the acceleration, or of the first setting that only a method has. `None` in
+    /// a rule.
     method_at: Option<Range<usize>>,
     /// The inputs that the text takes besides the acceleration and the target.
     inputs: Vec<Taken>,
@@ -337,34 +338,6 @@ impl StepText {
         self.tape
             .switch_origins()
             .map(|(kind, span)| (kind, self.source.get(span.clone()).unwrap_or_default().trim()))
-    }
-}
-
-/// Returns the statements of the first component of the vectors of a text, and this component with the first other.
-fn of_one_component(
-    mut statements: Vec<Statement>,
-    components: &[Component],
-) -> Result<(Vec<Statement>, Option<[char; 2]>), ExpressionFault> {
-    let Some(first) = components.first() else { return Ok((statements, None)) };
-    let is_other = |component: &&Component| component.letter != first.letter;
-    let Some(other) = components.iter().find(is_other) else { return Ok((statements, None)) };
-    let mut left = components.iter().filter(is_other).collect::<Vec<_>>();
-    statements.retain(|statement| {
-        let Statement::Assign { name, value, .. } = statement else { return true };
-        let within = |component: &&Component| (name.start..value.end).contains(&component.at);
-        let mut inside = components.iter().filter(within).peekable();
-        let is_kept = inside.peek().is_none() || inside.any(|it| it.letter == first.letter);
-        left.retain(|component| is_kept || !within(component));
-        is_kept
-    });
-    let letters = [first, other].map(|component| char::from(component.letter));
-    match left.first() {
-        Some(mixed) => fault(
-            mixed.at..mixed.at + 1,
-            format!("a line mixes the components {} and {} of vectors", letters[0], letters[1]),
-            "a step moves one number: write the lines of one component",
-        ),
-        None => Ok((statements, Some(letters))),
     }
 }
 

@@ -2,9 +2,12 @@
 
 use std::ops::Range;
 
-use super::method::{Function as OwnFunction, General, Input, Machine, Taken};
+pub(crate) use functions::SHARED_STEPS;
+use functions::end_of;
+
+use super::method::{Function as OwnFunction, Machine, Taken};
 use super::paths::{SMOOTH_DAMP, damped_velocity};
-use super::statements::{Statement, statements};
+use super::statements::Statement;
 use super::{BUILT_IN, Carried, H, Line, OTHER_NAMES, STEP_NAMES, StepText, TARGET, V, X};
 use crate::sim::law::expression::{Expression, Node, Scope, parse, parse_condition};
 use crate::sim::law::fault::{ExpressionFault, Parsed, Part, Remedy, fault, quoted};
@@ -13,22 +16,14 @@ use crate::sim::law::op::{OPERATOR_WORDS, Op};
 use crate::sim::law::tape::{MAX_OPERATIONS, MAX_SWITCHES, Tape};
 use crate::sim::law::token::is_name_part;
 
+mod functions;
+mod values;
+
 /// The maximum number of names of a text. It is so small that the bits of one word can represent a set of names.
 const MAX_STEP_NAMES: usize = 64;
 
 /// The deepest nesting of blocks.
 const MAX_BLOCKS: usize = 32;
-
-/// The maximum number of functions of a text.
-const MAX_FUNCTIONS: usize = 16;
-
-/// The functions that a text may `use`.
-const SHARED: [(&str, &str); 4] = [
-    ("slope", include_str!("../../../../assets/methods/shared/slope.step")),
-    ("solve", include_str!("../../../../assets/methods/shared/solve.step")),
-    ("steady", include_str!("../../../../assets/methods/shared/steady.step")),
-    ("step-size", include_str!("../../../../assets/methods/shared/step-size.step")),
-];
 
 /// Names for the call of the acceleration.
 const ACCELERATION: [&str; 3] = ["a", "accel", "acceleration"];
@@ -73,16 +68,6 @@ pub(super) struct Reader<'t> {
     reads_velocity: bool,
     /// Whether the value of `SmoothDamp` is the velocity that it leaves.
     damps_velocity: bool,
-}
-
-/// Returns the index of the statement that closes the block which the statement at `at` opens.
-fn end_of(all: &[Statement], at: usize) -> usize {
-    let mut depth = 0;
-    let is_end = |statement: &Statement| {
-        depth += statement.depth();
-        depth == 0
-    };
-    all[at..].iter().position(is_end).map_or(all.len(), |length| at + length)
 }
 
 /// The place that `SmoothDamp` leaves, until the velocity is assigned.
@@ -237,127 +222,6 @@ impl<'t> Reader<'t> {
     /// Whether the lines may read an input that has a value.
     fn may_read(&self, index: usize) -> bool {
         self.is_function || index != TARGET || !self.is_method() || self.takes_target
-    }
-
-    /// Reads an input of the lines, such as `whole substeps`.
-    fn take(&mut self, span: Range<usize>) -> Parsed<()> {
-        let text = self.text[span.clone()].trim();
-        let name = text.strip_prefix("whole ").unwrap_or(text).trim();
-        let name = name.split('(').next().unwrap_or_default().trim_end();
-        let start = span.start + self.text[span.clone()].find(name).unwrap_or(0);
-        let span = start..start + name.len();
-        if name == "target" {
-            self.takes_target = true;
-        } else if let Some((_, input)) = Input::ALL.iter().find(|(known, _)| *known == name) {
-            self.method_at.get_or_insert(span.clone());
-            self.declare(span.clone(), false, false)?;
-            let index = self.index(name).unwrap_or(X);
-            self.values[index] = Some(0);
-            self.inputs.push(Taken { input: *input, name: index, span });
-        } else if !ACCELERATION.contains(&name) {
-            let known: Vec<&str> = Input::ALL.iter().map(|(name, _)| *name).collect();
-            let what = format!("no body gives a step `{}`", quoted(name));
-            let remedy = format!("take `a(x, v)`, `target`, {}", known.join(", "));
-            return fault(span, what, remedy);
-        }
-        Ok(())
-    }
-
-    /// Reads a function, whose lines are the statements in this range.
-    fn read_function(
-        &mut self,
-        name: Range<usize>,
-        inputs: Range<usize>,
-        all: &[Statement],
-        lines: Range<usize>,
-    ) -> Parsed<()> {
-        let word = &self.text[name.clone()];
-        self.expect_method(&name, "write its lines in the place of the call")?;
-        if !self.blocks.is_empty() || self.is_function || lines.end == all.len() {
-            let remedy = "end the blocks before it, and close it with `}`";
-            return fault(name, "the function stands in a block, or is not closed", remedy);
-        }
-        if self.functions.len() == MAX_FUNCTIONS {
-            let what = format!("the lines have more than {MAX_FUNCTIONS} functions");
-            return fault(name, what, "use fewer");
-        }
-        let mut reader = Self::new(self.text, self.method_at.clone(), Vec::new());
-        reader.is_function = true;
-        let (mut takes, mut at) = (Vec::new(), inputs.start);
-        while at < inputs.end {
-            let rest = &self.text[at..inputs.end];
-            let length = rest.find([',', '(']).unwrap_or(rest.len());
-            let input = rest[..length].trim_start();
-            let input = at + length - input.len()..at + length;
-            let input = input.start..input.start + self.text[input.clone()].trim_end().len();
-            let is_acceleration = rest[length..].starts_with('(');
-            let is_name = self.text[input.clone()].bytes().all(is_name_part);
-            if input.is_empty() || !is_name || takes.len() == MAX_STEP_NAMES {
-                return fault(
-                    inputs,
-                    "an input of the function is no name",
-                    "write `fn f(x, v) {`",
-                );
-            }
-            if !is_acceleration {
-                reader.declare(input, false, false)?;
-                reader.values.fill(Some(0));
-            }
-            takes.push(is_acceleration);
-            let closed = if is_acceleration {
-                rest.find(')').map_or(rest.len(), |at| at + 1)
-            } else {
-                length
-            };
-            let next = rest[closed..].find(|c: char| c != ',' && !c.is_ascii_whitespace());
-            at += next.map_or(rest.len(), |next| closed + next);
-        }
-        reader.functions = std::mem::take(&mut self.functions);
-        reader.read_all(&all[lines])?;
-        let Reader { names, lines, functions, .. } = reader;
-        if !matches!(lines.last(), Some(Line::Return(_))) {
-            return fault(name, "the function can end without a value", "end it with `return x`");
-        }
-        self.functions = functions;
-        self.functions.push(OwnFunction {
-            name: word.to_owned(),
-            inputs: takes,
-            names,
-            lines,
-            general: None,
-        });
-        Ok(())
-    }
-
-    /// Adds the functions of a shared source.
-    fn use_shared(&mut self, span: Range<usize>) -> Parsed<()> {
-        let name = self.text[span.clone()].trim();
-        let start = span.start + self.text[span].find(name).unwrap_or(0);
-        let span = start..start + name.len();
-        let Some((_, source)) = SHARED.iter().find(|(known, _)| *known == name) else {
-            let known: Vec<&str> = SHARED.iter().map(|(known, _)| *known).collect();
-            let what = format!("nothing shared is called `{}`", quoted(name));
-            return fault(span, what, format!("write one of {}", known.join(", ")));
-        };
-        self.expect_method(&span, "write its lines in the place of the call")?;
-        let (text, _) = super::plain(source);
-        let before = self.functions.len();
-        let mut reader = Reader::new(&text, Some(0..0), std::mem::take(&mut self.functions));
-        reader.read_all(&statements(&text)?)?;
-        self.functions = reader.functions;
-        for function in &mut self.functions[before..] {
-            function.general = General::of(&function.name);
-        }
-        Ok(())
-    }
-
-    /// Refuses a rule.
-    fn expect_method(&self, at: &Range<usize>, remedy: &str) -> Parsed<()> {
-        if self.is_method() {
-            return Ok(());
-        }
-        let what = format!("`{}` cannot stand in a rule", quoted(self.text[at.clone()].trim()));
-        fault(at.clone(), what, remedy)
     }
 
     fn index(&self, name: &str) -> Option<usize> {
@@ -651,110 +515,6 @@ impl<'t> Reader<'t> {
             self.lines.push(Line::While(condition));
         }
         Ok(())
-    }
-
-    /// Notes that a method reads these names, of which those without a value are carried.
-    fn note_reads(&mut self, expression: &Expression) {
-        let inputs = expression.nodes.iter().filter(|node| node.op == Op::Input);
-        inputs.for_each(|node| self.note_read(node.index));
-    }
-
-    fn note_read(&mut self, index: usize) {
-        if self.values[index].is_none() && !self.is_function {
-            self.reads_velocity |= index == V;
-            if index >= BUILT_IN.len() && !self.carried.contains(&index) {
-                self.carried.push(index);
-            }
-        }
-    }
-
-    /// Closes a block. The values after the block are those of the branch taken.
-    fn close(&mut self, block: Block, brace: &Range<usize>) {
-        let Block { condition, before, first, .. } = block;
-        let second = match first.is_some() {
-            true => std::mem::take(&mut self.values),
-            false => before.clone(),
-        };
-        let first = first.unwrap_or_else(|| std::mem::take(&mut self.values));
-        self.values = before;
-        for index in 0..self.names.len() {
-            let branches = [first[index], second[index]];
-            if self.is_method() {
-                self.values[index] = branches[0].and(branches[1]);
-                continue;
-            }
-            if branches[0] == branches[1] {
-                self.values[index] = branches[0];
-                continue;
-            }
-            // A number that only one branch declares does not exist after that branch.
-            if branches.contains(&None) && !self.is_carried[index] {
-                continue;
-            }
-            let [a, b] =
-                branches.map(|branch| branch.unwrap_or_else(|| self.before_step(index, brace)));
-            self.values[index] = Some(self.push(Node::new(Op::If, &[condition, a, b]), brace));
-        }
-    }
-
-    /// Returns the node of a name's current number.
-    fn value(&mut self, index: usize, at: &Range<usize>) -> usize {
-        self.values[index].unwrap_or_else(|| self.before_step(index, at))
-    }
-
-    /// Returns the node of a name's number before the step.
-    fn before_step(&mut self, index: usize, at: &Range<usize>) -> usize {
-        if index >= BUILT_IN.len() && !self.carried.contains(&index) {
-            self.carried.push(index);
-        }
-        self.push(Node::input(index), at)
-    }
-
-    fn push(&mut self, node: Node, at: &Range<usize>) -> usize {
-        self.nodes.nodes.push(node);
-        self.nodes.spans.push(at.clone());
-        self.nodes.nodes.len() - 1
-    }
-
-    /// Adds the operations of an expression, which read the current numbers of the names. Returns the node of its
-    /// value.
-    fn splice(&mut self, expression: &Expression, at: usize) -> usize {
-        let at = at..at;
-        let mut read: Vec<(usize, usize)> = Vec::new();
-        for node in expression.nodes.iter().filter(|node| node.op == Op::Input) {
-            if !read.iter().any(|(name, _)| *name == node.index) {
-                read.push((node.index, self.value(node.index, &at)));
-            }
-        }
-        let (before, tables) = (self.nodes.nodes.len(), self.nodes.tables.len());
-        let zero = Node::new(Op::Number, &[]);
-        for (node, span) in expression.nodes.iter().zip(&expression.spans) {
-            let span = at.start + span.start..at.start + span.end;
-            let mut node = node.after(before);
-            if node.op.is_table() {
-                node.index += tables;
-            }
-            // A zero is a placeholder for an input, because operations read the name's current number instead.
-            self.push(if node.op == Op::Input { zero } else { node }, &span);
-        }
-        self.nodes.tables.extend(expression.tables.iter().cloned());
-        let number_of = |node: usize| {
-            let inner = &expression.nodes[node - before];
-            let found = read.iter().find(|(name, _)| inner.op == Op::Input && inner.index == *name);
-            found.map_or(node, |(_, number)| *number)
-        };
-        for node in before..self.nodes.nodes.len() {
-            self.nodes.nodes[node] = self.nodes.nodes[node].reading(number_of);
-        }
-        number_of(self.nodes.nodes.len() - 1)
-    }
-
-    fn check_length(&self, at: Range<usize>) -> Parsed<()> {
-        if self.nodes.nodes.len() <= 2 * MAX_OPERATIONS {
-            return Ok(());
-        }
-        let what = format!("the lines have more than {MAX_OPERATIONS} operations");
-        fault(at, what, "write fewer")
     }
 
     /// Returns the parsed lines, after all statements.
