@@ -46,8 +46,8 @@ four times the stiffness needs twice the rate. A reserve below 1.5 yields to a l
 the cheaper method, in JSON as instead_of.
 
 With --all, HOLDS DOWN TO is the slowest tick rate at which the criterion still holds with the same
-substeps, and HOLDS UP TO the factor by which the named parameter may grow, 10 at most; NS/S is
-measured now, and decides nothing. In JSON, a criterion that is not met has only met, which is false;
+substeps, HOLDS UP TO the factor by which the named parameter may grow, 10 at most, and RESERVE what
+both come to; NS/S is measured now, and decides nothing. In JSON, a criterion that is not met has only met, which is false;
 an unknown one is null, and take names the criterion of the answer.
 
 For a custom spring (--k or --frequency), or with --as, the answer ends with the method as a function.

@@ -284,7 +284,7 @@ mod tests {
         let text = format!("title = 'x'\n# {long}\nseconds = \"{long}\" # {long}\n");
         let found = report(Scene::parse("x.toml", &text).unwrap_err().into());
         assert!(found.len() < 8000 && found.contains("x.toml:3:"), "{} {found}", found.len());
-        assert!(found.contains("= \"é") && found.contains('^'), "{found}");
+        assert!(found.contains("3 | ... = \"é") && found.contains('^'), "{found}");
         let found = report(Error::mistake(format!("begin {long} remedy")));
         assert!(found.len() < 8000 && found.contains("begin é") && found.ends_with("é remedy"));
     }

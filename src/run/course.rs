@@ -26,6 +26,13 @@ pub struct Checked {
     pub is_same: bool,
 }
 
+impl Checked {
+    /// Returns words for a run that fails this check first.
+    pub fn fault(self) -> String {
+        format!("not the same run: tick {}, lane {}", self.tick, self.lane)
+    }
+}
+
 /// The record of a run's progress, which can be rebuilt by replaying the run.
 #[derive(Default)]
 pub(super) struct RunRecord {

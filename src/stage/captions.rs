@@ -481,17 +481,20 @@ pub(super) fn write_comparison(
     }
 }
 
-/// Reports that the run differs from its recording.
+/// Reports that the run differs from its recording, on a plate, for trails pass there.
 pub(super) fn write_failed_check(
     picture: &mut Picture,
     rect: Rect,
-    Checked { tick, lane, .. }: Checked,
+    failed: Checked,
     palette: &Palette,
 ) {
     let Some([x, _]) = caption_place(rect) else { return };
-    let words = format!("not the same run: tick {tick}, lane {lane}");
-    let at = [x, rect.max[1] - FAILED];
-    picture.labels.push(text(palette, at, Align::Left, 13.5, palette.bad, words));
+    let words = failed.fault();
+    let (y, half) = (rect.max[1] - FAILED, 0.5 * CHIP);
+    let right = x + 8.0 + VERDICT_LETTER * words.chars().count() as f32;
+    let room = Rect { min: [x - 8.0, y - half], max: [right, y + half] };
+    plate(picture, room, palette.bad, rect, palette);
+    picture.labels.push(text(palette, [x, y], Align::Left, 13.5, palette.bad, words));
 }
 
 /// Names a ghost in its colour, `beside` points from its middle: below it at a free side, or else above it. On a chart

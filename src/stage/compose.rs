@@ -434,7 +434,9 @@ impl BodyCell<'_> {
     fn draw_compared(&self, picture: &mut Picture, lift: f32) {
         let Self { moment, index, ref camera, front, .. } = *self;
         let (deck, palette) = (&moment.studio.deck, moment.palette);
+        // The timeline says it at the check itself.
         if index == 0
+            && !moment.studio.display().measure
             && front.id == deck.selected().id
             && let Some(failed) = deck.run().first_failed_check()
         {

@@ -8,7 +8,7 @@ use super::outgrown::{Room, in_steps, strayed_m};
 use super::sketch::Camera;
 use crate::look::{Framing, Look, drawn_unit};
 use crate::run::race::Entrant;
-use crate::studio::{Motion, ZoomPan, shown_state};
+use crate::studio::{Motion, ZoomPan, exact_future, shown_state, shows_futures};
 
 /// Height (points) at the head of a cell that a fixed camera leaves to the caption.
 const HEAD: f64 = 36.0;
@@ -127,8 +127,15 @@ impl BodyView {
         self
     }
 
-    /// Makes room for all of a lane's motion; with reduced motion, in steps.
+    /// Makes room for all of a lane's motion; with reduced motion, in steps. Where futures are shown, the exact one has
+    /// room. It is the same at every tick rate, so that the view rests while a person drags the rate.
     fn outgrown(mut self, moment: &DrawContext<'_>, lane: &Entrant, body: usize) -> Self {
+        let future = shows_futures(moment.studio).then(|| exact_future(&moment.studio.deck, body));
+        let future = future.flatten().map_or(Vec::new(), |future| future.moments);
+        let ahead_m = |centre_m: DVec2| {
+            let places = future.iter().map(|moment| (moment.at - centre_m).abs());
+            places.filter(|place| place.is_finite()).fold(DVec2::ZERO, DVec2::max)
+        };
         let is_stepped = moment.studio.display().motion == Motion::Reduced;
         let taken = |room: Room| match is_stepped {
             true => room.taken_in_steps(moment, lane, body),
@@ -138,12 +145,12 @@ impl BodyView {
             Framing::Recorder { half_width_m } => {
                 let base_m = DVec2::new(half_width_m.max(1.1 * self.reach_m.x) / 1.1, f64::MAX);
                 let room = Room { centre_m: DVec2::ZERO, base_m, window_s: moment.paper_s };
-                self.reach_m.x = taken(room).x;
+                self.reach_m.x = taken(room).x.max(ahead_m(DVec2::ZERO).x);
             }
             Framing::Fixed { centre_m, half_m, trail_s } => {
                 let base_m = half_m.max(1.05 * self.reach_m) / 1.05;
                 let room = Room { centre_m: *centre_m, base_m, window_s: *trail_s };
-                self.reach_m = taken(room);
+                self.reach_m = taken(room).max(ahead_m(*centre_m));
             }
             Framing::Follow { width_m, height_m, .. } => {
                 let wide = if self.turns { width_m.min(*height_m) } else { *width_m };

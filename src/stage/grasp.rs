@@ -134,6 +134,16 @@ impl Cell {
         self.camera.zoom_pan
     }
 
+    /// The greatest factor by which the cell may still be zoomed in: no part of its body that a hand can take grows beyond
+    /// half of the cell. Never below 1.
+    pub fn max_zoom_in(&self, studio: &Studio) -> f64 {
+        let own = self.seen.iter().filter(|(whose, _)| *whose != Whose::Truth);
+        let own = own.flat_map(|(whose, q)| self.grips_of(studio, *whose, q));
+        let radius = own.map(|grip| grip.radius).fold(MIN_RADIUS, f32::max);
+        let [width, height] = self.rect.size();
+        (width.min(height) / 4.0 / f64::from(radius)).max(1.0)
+    }
+
     /// A point of the stage relative to the cell's middle: across and down, in widths and heights of the cell.
     pub fn part(&self, at: [f32; 2]) -> [f64; 2] {
         self.rect.part(at)

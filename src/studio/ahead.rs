@@ -5,6 +5,7 @@ use super::deck::Deck;
 use super::viewer::Viewer;
 use crate::measure;
 use crate::measure::{FutureCurve, OneStep};
+use crate::scene::LaneSpec;
 use crate::sim::stability::Tick;
 
 /// Returns the anatomy of the next tick of the displayed body in the selected lane, or `None` if the body has halted.
@@ -48,12 +49,21 @@ pub fn shows_futures(studio: &Studio) -> bool {
 /// Returns the next second of the body with this index in the scene, from its state in the selected lane, under each
 /// method. The truth comes last. There is none if the body has halted, or has too many coordinates.
 pub fn futures(deck: &Deck, body: usize) -> Vec<FutureCurve> {
+    futures_under(deck, body, &deck.entries()[..deck.offered()])
+}
+
+/// Like [`futures`], in truth alone.
+pub fn exact_future(deck: &Deck, body: usize) -> Option<FutureCurve> {
+    futures_under(deck, body, &[]).pop()
+}
+
+fn futures_under(deck: &Deck, body: usize, methods: &[LaneSpec]) -> Vec<FutureCurve> {
     let of = &deck.selected().lane.bodies()[body];
     let held = deck.held().filter(|held| held.body == body);
     let held = held.map(|held| (&*held.q, &*held.v));
     let plotted = deck.past().coordinate(deck.race(), body).1;
     let (t, tick_hz) = (deck.race().t(), deck.race().tick_hz());
-    measure::futures(of, t, tick_hz, held, plotted, &deck.entries()[..deck.offered()])
+    measure::futures(of, t, tick_hz, held, plotted, methods)
 }
 
 #[cfg(test)]

@@ -1,7 +1,9 @@
 //! Passes each command to the part of the studio that executes it.
 
 use super::Studio;
-use super::command::{Command, SCALE_LADDER, USUAL_SCALE_PERCENT, ViewCommand};
+use super::command::{
+    Command, RunCommand, SCALE_LADDER, StageCommand, USUAL_SCALE_PERCENT, ViewCommand,
+};
 use super::deck::Deck;
 use super::dispatch::{carry_out_on_run, carry_out_on_stage};
 use super::display::DriverRequest;
@@ -32,6 +34,10 @@ impl Studio {
             self.deck.run.close_change();
         }
         let (ran, was_asked) = (self.deck.time_runs(), self.viewer.is_asked());
+        if was_asked && moves_time(&command) {
+            self.viewer.set_notice("first predict: click an answer. Page Down skips the question");
+            return None;
+        }
         self.viewer.measure_for(&command);
         let request = self.carry_out(command);
         look_at_goal(&mut self.deck, &mut self.viewer, self.loops.is_some(), was_asked);
@@ -157,6 +163,21 @@ impl Studio {
             self.loops = None;
         }
         None
+    }
+}
+
+/// Whether the command lets time run, moves it, or shows what it will bring.
+fn moves_time(command: &Command) -> bool {
+    match command {
+        Command::View(view) => {
+            matches!(view, ViewCommand::TogglePause | ViewCommand::ToggleFutures)
+        }
+        Command::Stage(stage) => {
+            use StageCommand::{Restart, Second, Tick};
+            matches!(stage, Tick(_) | Second(_) | Restart)
+        }
+        Command::Run(run) => matches!(run, RunCommand::Seek(_) | RunCommand::WatchAgain),
+        _ => false,
     }
 }
 

@@ -153,7 +153,7 @@ impl Tour {
 
     /// Whether the stop waits for a prediction.
     pub fn is_asking(&self) -> bool {
-        self.guess.is_none() && !self.is_done
+        self.guess.is_none()
     }
 
     pub(super) fn predict(&mut self, choice: usize) {

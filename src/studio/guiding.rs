@@ -126,8 +126,8 @@ pub(super) fn go_to_stop(deck: &mut Deck, viewer: &mut Viewer, index: usize) {
     viewer.tour = Some(tour);
 }
 
-/// Marks the stop's task as done if its goal is met. `was_asked` is whether the stop waited for a prediction before the
-/// command. If it did and no longer does, time starts, unless the task is to step.
+/// Marks the stop's task as done if its goal is met and the person has predicted. `was_asked` is whether the stop waited
+/// for a prediction before the command. If it did and no longer does, time starts, unless the task is to step.
 pub(super) fn look_at_goal(
     deck: &mut Deck,
     viewer: &mut Viewer,
@@ -135,9 +135,14 @@ pub(super) fn look_at_goal(
     was_asked: bool,
 ) {
     let Some(mut tour) = viewer.tour.take() else { return };
-    tour.check_goal(&hint_context(deck, viewer, is_in_loop_lab));
-    let is_stepped = matches!(tour.stop().goal, Goal::SteppedTo(_));
-    deck.running |= was_asked && !tour.is_asking() && !is_stepped && deck.race().tick() == 0;
+    if tour.is_asking() {
+        // A command that restarts the run would start it.
+        deck.running = false;
+    } else {
+        let is_stepped = matches!(tour.stop().goal, Goal::SteppedTo(_));
+        deck.running |= was_asked && !is_stepped && deck.race().tick() == 0;
+        tour.check_goal(&hint_context(deck, viewer, is_in_loop_lab));
+    }
     viewer.tour = Some(tour);
 }
 

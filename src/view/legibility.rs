@@ -531,7 +531,7 @@ fn counted(studio: &Studio, size: Vec2) -> [Vec<String>; 2] {
 
 #[test]
 fn the_opening_shows_few_words_and_numbers_and_no_tabs() {
-    for (measure, most) in [(false, [40, 20]), (true, [92, 60])] {
+    for (measure, most) in [(false, [40, 20]), (true, [90, 60])] {
         // Once the stage zooms out after the spring, a sentence on it states how far the spring is.
         let sentence = [20, 6];
         let mut studio = Studio::new(Scene::built_in("harbour").unwrap());

@@ -309,6 +309,7 @@ fn zoom(ui: &Ui, stage: &Stage<'_>, at: Pos2, commands: &mut Vec<Command>) {
         commands.push(Command::View(ViewCommand::ZoomPan { body, zoom_pan: ZoomPan::default() }));
     } else if times != 1.0 {
         let about = cell.part(stage.point(at));
+        let times = times.min(cell.max_zoom_in(stage.studio));
         let zoom_pan = cell.zoom_pan().zoomed(times, about);
         commands.push(Command::View(ViewCommand::ZoomPan { body, zoom_pan }));
     }

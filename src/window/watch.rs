@@ -38,8 +38,10 @@ impl FileWatch {
         events: EventLoopProxy<Event>,
     ) -> Self {
         let (files, sent) = channel();
-        let watched = opened.and_then(|(path, text)| WatchedFile::of_scene(path, text));
-        thread::spawn(move || watch(&read, watched.into_iter().collect(), &sent, &events));
+        thread::spawn(move || {
+            let watched = opened.and_then(|(path, text)| WatchedFile::of_scene(path, text));
+            watch(&read, watched.into_iter().collect(), &sent, &events);
+        });
         Self { files }
     }
 

@@ -128,7 +128,7 @@ fn the_text_of_a_stop_closes_with_its_scene_and_mode() {
         assert!(studio.loop_lab().is_none());
     }
     // This stop is about the loop lab, and another scene in the loop lab does not leave it.
-    let mut studio = lab_at(place_of(Goal::LoopLab));
+    let mut studio = lab_after_prediction(place_of(Goal::LoopLab));
     studio.apply(Command::Loop(LoopCommand::ToggleLab));
     assert!(is_done(&studio));
     studio.apply(StageCommand::SceneBeside(Step::Next));
@@ -351,7 +351,7 @@ fn a_spring_4_times_as_stiff_needs_2_times_the_tick_rate() {
 
 #[test]
 fn the_fixed_loop_judders_by_12_ms_and_whole_refreshes_do_not() {
-    let mut studio = lab_at(place_of(Goal::LoopLab));
+    let mut studio = lab_after_prediction(place_of(Goal::LoopLab));
     studio.apply(Command::Loop(LoopCommand::ToggleLab));
     run_loops(&mut studio);
     let loops: &LoopLab = studio.loop_lab().expect("it opens");
@@ -432,7 +432,7 @@ fn engines_damp_a_spring_as_the_guide_says() {
 /// The studio at a stop, a tick into it, after its keys.
 fn after_its_keys(title: &str) -> Studio {
     let at = STOPS.iter().position(|stop| stop.title == title).expect("a stop");
-    let mut studio = lab_at(at);
+    let mut studio = lab_after_prediction(at);
     studio.tick();
     for key in STOPS[at].keys {
         let (command, _) = command_for(*key).expect("a key of the table");
@@ -468,7 +468,7 @@ fn a_stop_asking_for_home_is_done_only_by_a_restarted_run() {
     let count = STOPS.iter().filter(asks).count();
     assert!(count >= 9, "{count}");
     for (index, stop) in STOPS.iter().enumerate().filter(|(_, stop)| asks(stop)) {
-        let mut studio = lab_at(index);
+        let mut studio = lab_after_prediction(index);
         studio.tick();
         let (home, keys) = stop.keys.split_last().unwrap();
         for key in keys {
@@ -482,7 +482,8 @@ fn a_stop_asking_for_home_is_done_only_by_a_restarted_run() {
 
 #[test]
 fn the_pendulum_of_the_guide_goes_over_the_top_in_its_fourth_half_swing() {
-    let mut studio = lab_at(STOPS.iter().position(|s| s.instrument == Instrument::Phase).unwrap());
+    let mut studio =
+        lab_after_prediction(STOPS.iter().position(|s| s.instrument == Instrument::Phase).unwrap());
     let state = |studio: &Studio| {
         let stepper = &studio.race().entrants()[0].lane.bodies()[0].stepper;
         (stepper.q()[0], stepper.v()[0])

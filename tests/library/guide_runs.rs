@@ -8,8 +8,8 @@ use regatta::scene::{Action, SCENES, Scene};
 use regatta::stage::compose;
 use regatta::studio::guide::{Goal, STOPS};
 use regatta::studio::{
-    Command, DIGITS, Instrument, RunCommand, StageCommand, Step, Studio, ViewCommand, command_for,
-    one_step,
+    Command, DIGITS, Instrument, Key, RunCommand, StageCommand, Step, Studio, ViewCommand,
+    command_for, one_step,
 };
 
 /// The words on the stage.
@@ -36,11 +36,22 @@ fn no_stop_shows_its_answer_before_the_prediction() {
         let hint = studio.hint().expect("what to do");
         assert!(hint.contains("prediction"), "{hint}");
         let before = said_on_stage(&studio);
-        // Time that runs meanwhile adds no words.
-        studio.apply(ViewCommand::TogglePause);
-        studio.advance(500_000_000);
-        assert!(studio.viewer.is_asked() && !judged(&studio) && !lands(&studio), "{}", stop.title);
-        assert!(said_on_stage(&studio).iter().all(|it| !it.starts_with("should ")));
+        for key in [Key::Space, Key::Sign('.'), Key::Home, Key::Sign('f')] {
+            studio.apply(command_for(key).unwrap().0);
+            studio.advance(500_000_000);
+            assert_eq!(
+                (studio.race().tick(), studio.running()),
+                (0, false),
+                "{}: {key}",
+                stop.title
+            );
+            assert!(!studio.display().futures && !is_done(&studio), "{}: {key}", stop.title);
+            let told = studio.viewer.notice.as_deref().expect("why time waits");
+            assert!(told.contains("predict"), "{told}");
+        }
+        stop.keys.iter().for_each(|key| _ = studio.apply(command_for(*key).unwrap().0));
+        assert!(studio.viewer.is_asked() && !is_done(&studio), "{}: its task", stop.title);
+        assert!(!judged(&studio) && !lands(&studio), "{}", stop.title);
         let mut studio = lab_at(index);
         studio.analyse();
         studio.apply(ViewCommand::Predict(stop.right));
@@ -56,12 +67,15 @@ fn no_stop_shows_its_answer_before_the_prediction() {
 }
 
 #[test]
-fn doing_the_task_without_a_prediction_also_starts_the_run() {
+fn a_task_done_before_the_prediction_counts_once_that_is_made() {
     let at = STOPS.iter().position(|stop| stop.goal == Goal::Race).unwrap();
     let mut studio = lab_at(at);
     for key in STOPS[at].keys {
         studio.apply(command_for(*key).unwrap().0);
     }
+    assert!(!is_done(&studio) && studio.viewer.is_asked());
+    assert_eq!((studio.race().tick(), studio.running()), (0, false));
+    studio.apply(ViewCommand::Predict(0));
     assert!(is_done(&studio) && !studio.viewer.is_asked());
     assert_eq!((studio.race().tick(), studio.running()), (0, true));
 }

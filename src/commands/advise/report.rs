@@ -243,6 +243,7 @@ const METS: &[Column<MetRow>] = &[
     Column::shown("ns_per_s", "NS/S MEASURED NOW", |row| {
         json!(row.ns_per_s.map(|ns| ns.round() as u64))
     }),
+    Column::shown("reserve", "RESERVE", |row| json!(row.met.reserve())),
     Column::shown("slowest_hz", "HOLDS DOWN TO", |row| {
         json!(row.met.slower().unwrap_or_else(|| unknown(&row.met).into()))
     }),

@@ -120,6 +120,11 @@ fn a_verdict_shows_the_number_of_its_outcome_and_details_show_the_rest() {
     is(compared(COMPARED), "bounded · off by 25 % at 3 s", &[faded]);
     let right = Comparison { looks_right: Some(true), ..COMPARED };
     is(compared(right), "looks right · off by 25 % at 3 s", &[faded]);
+    for (error, off) in [(9.99, "999 %"), (10.0, "10 amplitudes"), (27.32, "27 amplitudes")] {
+        let tipped = Comparison { error, last_error: error, ..COMPARED };
+        let details = format!("off by up to {off} at 3 s, by {off} after 20 s");
+        is(compared(tipped), &format!("bounded · off by {off}"), &[&details]);
+    }
     let unknown = LongTerm { is_bounded: None, ..SWINGS };
     let open = Verdict { long_term: unknown, ..compared(COMPARED) };
     is(open, "inaccurate · off by 25 % at 3 s", &[faded]);

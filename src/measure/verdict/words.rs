@@ -19,6 +19,9 @@ const MOST_HALVING_HORIZONS: f64 = 20.0;
 /// Width of a swing, relative to the true one, from which on it is written as a multiple.
 const MULTIPLE: f64 = 1.5;
 
+/// Error in amplitudes from which on it is written as a multiple.
+const MANY: f64 = 10.0;
+
 /// Energy change at or below which nothing visible is left, in units of the largest kinetic energy.
 const ALL_ENERGY: f64 = -0.995;
 
@@ -136,7 +139,11 @@ impl Verdict {
             }
             (None, None) => {
                 let error = self.error().unwrap_or(f64::INFINITY);
-                VerdictNumber::part("largest error", error, format!("off by {}", percent(error)))
+                VerdictNumber::part(
+                    "largest error",
+                    error,
+                    format!("off by {}", of_amplitude(error)),
+                )
             }
         }
     }
@@ -144,7 +151,7 @@ impl Verdict {
     /// Describes the error of a motion that keeps its size, by the first that applies of a wrong width, a delay or
     /// lead, a frequency error and the largest error.
     fn gap(&self, found: &Comparison) -> VerdictNumber {
-        let (error, horizon) = (percent(found.error), duration(self.horizon_s));
+        let (error, horizon) = (of_amplitude(found.error), duration(self.horizon_s));
         if let Some(width) = found.wrong_width().filter(|_| found.looks_right != Some(true)) {
             let text = match found.widths {
                 Some(widths) => widths.to_string(),
@@ -283,7 +290,7 @@ impl Verdict {
 
     /// Describes the largest error, its time, and the error that remains.
     fn error_over_time(&self, found: &Comparison) -> Option<String> {
-        let (error, horizon) = (percent(found.error), duration(self.horizon_s));
+        let (error, horizon) = (of_amplitude(found.error), duration(self.horizon_s));
         let at = self.moment(found.error_at_s);
         match self.outcome() {
             Outcome::Accurate => Some(format!("largest error {error} of the amplitude, at {at}")),
@@ -291,7 +298,7 @@ impl Verdict {
                 Some(format!("off by {error} at {at}, settled by {}", self.moment(self.horizon_s)))
             }
             Outcome::LooksRight | Outcome::Bounded => {
-                let last = percent(found.last_error);
+                let last = of_amplitude(found.last_error);
                 Some(format!("off by up to {error} at {at}, by {last} after {horizon}"))
             }
             _ => None,
@@ -324,6 +331,15 @@ const BETWEEN: &str = " · ";
 impl fmt::Display for Verdict {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(&self.line(true))
+    }
+}
+
+/// Writes an error that is given in amplitudes: in percent of one, or as their number from [`MANY`] on. A pendulum that
+/// tips over is many amplitudes off.
+fn of_amplitude(error: f64) -> String {
+    match error {
+        MANY..f64::INFINITY => format!("{} amplitudes", significant(error, 2)),
+        _ => percent(error),
     }
 }
 

@@ -143,12 +143,9 @@ impl TableRow for Row<'_> {
         for line in method.formula {
             ui.label(formula(line, 16.0, palette(ui).text));
         }
-        ui.label(format!(
-            "At {:.3} Hz: {}.",
-            self.studio.clock().tick_hz(),
-            self.verdict_text().whole()
-        ));
-        for detail in self.details() {
+        let verdict = self.verdict_text();
+        ui.label(format!("At {:.3} Hz: {}.", self.studio.clock().tick_hz(), verdict.whole()));
+        for detail in self.details().into_iter().filter(|it| !verdict.whole().contains(&**it)) {
             ui.label(RichText::new(detail).color(palette(ui).dim));
         }
         let order = match method.order == method.order_with_drag {

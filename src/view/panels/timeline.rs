@@ -84,6 +84,7 @@ pub(super) fn show(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) {
     groove.write(&painter, span, track.palette);
     draw_track(&painter, studio, &events, &track);
     draw_checks(&painter, studio, &track);
+    write_failed_check(&painter, studio, &track);
     groups.iter().for_each(|group| draw_group(&painter, &track, group));
     // The handle is at the same moment as the stage and the plots.
     let shown_s = shown_s(&studio.deck, &studio.viewer);
@@ -365,6 +366,24 @@ fn draw_checks(painter: &Painter, studio: &Studio, track: &TimelineView<'_>) {
             painter.add(Shape::line(at(sign), Stroke::new(1.6, colour)));
         }
     }
+}
+
+/// Writes beside the first ✗ that the run is not the recorded one, over the checks that follow it.
+fn write_failed_check(painter: &Painter, studio: &Studio, track: &TimelineView<'_>) {
+    let Some(failed) = studio.run().first_failed_check() else { return };
+    let (x, along) = (track.x(failed.tick), track.groove.along);
+    if !along.contains(x) {
+        return;
+    }
+    let font = FontId::proportional(10.5);
+    let text = painter.layout_no_wrap(failed.fault(), font, track.palette.bad);
+    let fits = x + CHECKS_APART + text.size().x <= track.groove.room.right();
+    let align = if fits { Align2::LEFT_CENTER } else { Align2::RIGHT_CENTER };
+    let beside = if fits { CHECKS_APART } else { -CHECKS_APART };
+    let at = pos2(x + beside, track.groove.y - CHECK_HEIGHT);
+    let plate = align.anchor_size(at, text.size());
+    painter.rect_filled(plate.expand2(vec2(2.0, 0.0)), 2.0, track.palette.background);
+    painter.galley(plate.min, text, track.palette.bad);
 }
 
 /// Returns each tick with checks that the run has reached, and whether all of its lanes had the recorded state.

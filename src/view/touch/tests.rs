@@ -284,6 +284,36 @@ fn the_wheel_zooms_a_drag_of_the_sea_pans_and_a_double_click_fits() {
     }
 }
 
+#[test]
+fn the_wheel_zooms_in_until_a_body_fills_half_the_stage_and_no_further() {
+    for scene in ["ship", "harbour", "pendulum", "spring", "helm"] {
+        let mut table = Table::new(scene);
+        table.studio.apply(ViewCommand::TogglePause);
+        let delta = vec2(0.0, 60.0);
+        for _ in 0..40 {
+            let at = table.body();
+            table.frame(vec![
+                Event::PointerMoved(at),
+                Event::MouseWheel {
+                    unit: egui::MouseWheelUnit::Point,
+                    delta,
+                    phase: egui::TouchPhase::Move,
+                    source: egui::MouseWheelSource::Unknown,
+                    modifiers: Modifiers::NONE,
+                },
+            ]);
+            (0..6).for_each(|_| _ = table.frame(Vec::new()));
+        }
+        let picture = table.picture();
+        let cell = &picture.cells[0];
+        let grips = cell.grips(&table.studio).filter(|grip| grip.whose != Whose::Truth);
+        let widest = 2.0 * grips.map(|grip| grip.radius).fold(0.0, f32::max);
+        let room = Rect::from_min_max(cell.rect.min.into(), cell.rect.max.into()).size();
+        let part = widest / room.min_elem();
+        assert!((0.3..0.7).contains(&part), "{scene}: {part} of the stage");
+    }
+}
+
 /// Lets time run for a frame of 50 ms, and lays it out.
 fn run_frame(table: &mut Table, events: Vec<Event>) -> Vec<Command> {
     table.studio.advance(50_000_000);

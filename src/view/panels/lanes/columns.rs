@@ -130,7 +130,7 @@ fn exact<'a>() -> Column<Row<'a>> {
 fn error<'a>() -> Column<Row<'a>> {
     let text = |row: &Row<'a>| row.in_unit(row.largest_error()?);
     let about = "largest difference from the exact solution in a coordinate since the start";
-    Column::number("error", (88.0, 2), about, text, Row::largest_error).headed("error so far")
+    Column::number("error", (88.0, 2), about, text, Row::largest_error).headed("largest error")
 }
 
 /// Returns the measures of a body that follows a target.
@@ -158,11 +158,10 @@ fn energy<'a>() -> Column<Row<'a>> {
         let sign = if energy > 0.0 && row.has_truth() { "+" } else { "" };
         Some(format!("{sign}{} {unit}", significant(energy, 3)))
     };
-    let about = "energy gained or lost, in percent of the energy that the exact swing exchanges, or else of the most \
+    let about = "energy gained or lost by now, in percent of the energy that the exact swing exchanges, or else of the most \
                  that the exact body had; in joules if neither is known; without a truth, all the energy of the \
                  body";
-    let column = Column::number("energy", (98.0, 3), about, text, |row| Some(row.energy()?.0));
-    column.headed("energy now")
+    Column::number("energy", (98.0, 3), about, text, |row| Some(row.energy()?.0))
 }
 
 fn evaluations<'a>() -> Column<Row<'a>> {

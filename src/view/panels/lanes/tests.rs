@@ -92,6 +92,29 @@ fn the_tooltip_of_an_engine_names_its_tested_version() {
 }
 
 #[test]
+fn the_tooltip_of_a_method_says_nothing_twice() {
+    let mut studio = Studio::new(Scene::built_in("spring").unwrap());
+    (0..120).for_each(|_| studio.tick());
+    studio.apply(StageCommand::Pick(1));
+    studio.apply(StageCommand::Pick(0));
+    studio.analyse();
+    let mut told = 0;
+    for row in sorted(&studio, None) {
+        let whole = row.verdict_text().whole().to_owned();
+        let ((), shown) = TestWindow::new([800.0, 600.0]).show(Vec::new(), |ui| row.tooltip(ui));
+        let words = shown.words();
+        let Some((already, _)) =
+            whole.split_once(" · ").filter(|(it, _)| it.starts_with("already"))
+        else {
+            continue;
+        };
+        assert_eq!(words.iter().filter(|it| it.contains(already)).count(), 1, "{words:?}");
+        told += 1;
+    }
+    assert!(told > 0, "a method that grows begins off the truth here");
+}
+
+#[test]
 fn an_unjudged_method_is_marked_as_being_judged() {
     let mut studio = Studio::new(Scene::built_in("harbour").unwrap());
     assert!(

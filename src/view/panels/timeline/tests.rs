@@ -152,23 +152,33 @@ fn a_recording_is_checked_while_it_plays_until_a_person_changes_it() {
         (0..ticks).for_each(|_| studio.tick());
         studio
     };
-    let said = |studio: &Studio| {
-        let labels = crate::stage::compose(studio, [780.0, 440.0]).labels;
-        labels.into_iter().map(|it| it.text).find(|it| it.starts_with("not the same run"))
+    // On the timeline, or on the stage where that stands alone.
+    let said = |studio: &mut Studio| {
+        let [on_stage, on_timeline] = [false, true].map(|measures| {
+            studio.viewer.preferences.display.measure = measures;
+            let labels = crate::stage::compose(studio, [780.0, 440.0]).labels;
+            let panels = TestWindow::new(SIZE).panels(studio, Vec::new()).1;
+            let words: Vec<String> = labels.into_iter().map(|it| it.text).collect();
+            let words = words.into_iter().chain(panels.words());
+            words.filter(|it| it.starts_with("not the same run")).collect::<Vec<_>>()
+        });
+        assert_eq!(on_stage, on_timeline);
+        assert!(on_stage.len() < 2, "{on_stage:?}");
+        on_stage.into_iter().next()
     };
-    let same = play(&text, 150);
+    let mut same = play(&text, 150);
     let found: Vec<(u64, bool)> = checks(&same).collect();
     assert_eq!(found, [(60, true), (120, true), (150, true)]);
-    assert_eq!(said(&same), None);
+    assert_eq!(said(&mut same), None);
     let hash = format!("{:016x}", same.scene().checks[1].hash);
     let other = format!("{:016x}", same.scene().checks[1].hash ^ 1);
     assert!(text.contains(&hash), "{text}");
     let mut wrong = play(&text.replace(&hash, &other), 130);
     let found: Vec<(u64, bool)> = checks(&wrong).collect();
     assert_eq!(found, [(60, true), (120, false)]);
-    assert_eq!(said(&wrong).as_deref(), Some("not the same run: tick 120, lane 1"));
+    assert_eq!(said(&mut wrong).as_deref(), Some("not the same run: tick 120, lane 1"));
     wrong.apply(RunCommand::Seek(100));
-    assert_eq!(said(&wrong), None, "it is not yet there");
+    assert_eq!(said(&mut wrong), None, "it is not yet there");
     // A person's kick is meant to change the run.
     wrong.apply(RunCommand::Act(Action::Kick(1.0)));
     (0..60).for_each(|_| wrong.tick());
