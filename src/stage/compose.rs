@@ -332,6 +332,7 @@ impl BodyCell<'_> {
                 });
                 let is_recorded = matches!(framing, Framing::Recorder { .. });
                 let beside = bead.filter(|_| is_recorded).unwrap_or(lift);
+                let beside = hull::half_height(&ghost.outline, camera).max(beside);
                 let exact = ("exact", palette.exact);
                 captions::ghost_name(picture, camera, (ghost.outline.at, beside), exact, palette);
             }
@@ -453,7 +454,8 @@ impl BodyCell<'_> {
         let style = LaneStyle { colour: palette.accent, dash: SOLID, fill: 0.0 };
         OutlineView { outline: &outline, camera, palette }.draw_behind(picture, style);
         let named = (compared.name(), palette.accent);
-        captions::ghost_name(picture, camera, (outline.at, lift), named, palette);
+        let beside = hull::half_height(&outline, camera).max(lift);
+        captions::ghost_name(picture, camera, (outline.at, beside), named, palette);
     }
 
     /// Draws the trail of a lane's body that is now at `from`, unless the trail leaves the cell. Returns the badge

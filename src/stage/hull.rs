@@ -4,8 +4,9 @@ use std::f32::consts::FRAC_PI_2;
 use std::sync::LazyLock;
 
 use super::breakpoints;
-use super::sketch::{Pen, rounded};
+use super::sketch::{Camera, Pen, rounded};
 use crate::look::palette::{BLACK, Palette, Rgba, WHITE, fade, mix};
+use crate::scene::{Mark, Outline};
 
 /// Planks of the deck, in the light and in the shade.
 const DECK: [Rgba; 2] = [[236, 220, 184, 255], [206, 186, 146, 255]];
@@ -33,6 +34,18 @@ static WIDTHS: LazyLock<[[f32; 2]; 23]> = LazyLock::new(|| {
         [part, stern * (1.0 - libm::powf(bow, 2.1))]
     })
 });
+
+/// Half the height of a ship in points; 0 for a body without a hull.
+pub(super) fn half_height(outline: &Outline, camera: &Camera) -> f32 {
+    let of_hull = |mark: &Mark| match *mark {
+        Mark::Hull { bow, length } => {
+            let height = bow.y.abs() + f64::from(BEAM) * bow.x.abs();
+            Some(camera.size(length * height / 2.0))
+        }
+        _ => None,
+    };
+    outline.marks.iter().find_map(of_hull).unwrap_or(0.0)
+}
 
 impl ShipPose {
     /// A place on the ship, ahead of its middle and to starboard, in lengths.

@@ -5,7 +5,7 @@ use glam::DVec2;
 
 use super::body::OutlineView;
 use super::sketch::{Camera, LaneStyle, SOLID};
-use super::{Align, Label, Picture, Rect, breakpoints, captions, chart};
+use super::{Align, Label, Picture, Rect, breakpoints, captions, chart, hull};
 use crate::look::palette::{Palette, Rgba, fade};
 use crate::look::{Framing, Look};
 use crate::loops::loop_lab::{LoopFrame, LoopLab, LoopLane};
@@ -243,7 +243,7 @@ impl<'a> LoopBand<'a> {
         let drawn = self.shown_outline(frame);
         self.body(picture, &camera, &drawn);
         self.outline_view(&camera, &drawn).number(picture, digit_of(self.place), self.colour);
-        self.words(picture, &camera, frame, [drawn.at, exact.at]);
+        self.words(picture, &camera, frame, [&drawn, &exact]);
         self.is_recorded().then_some(camera)
     }
 
@@ -336,11 +336,18 @@ impl<'a> LoopBand<'a> {
         self.name(picture, self.rect.max[1] - 0.5 * FOOT, &name);
     }
 
-    fn words(&self, picture: &mut Picture, camera: &Camera, frame: &LoopFrame, at: [DVec2; 2]) {
+    fn words(
+        &self,
+        picture: &mut Picture,
+        camera: &Camera,
+        frame: &LoopFrame,
+        outlines: [&Outline; 2],
+    ) {
         let [width, height] = self.size();
         self.title(picture);
-        let [drawn, exact] = at.map(|at| camera.points(at));
-        let above = drawn[1] - 0.5 * camera.block - 9.0;
+        let [drawn, exact] = outlines.map(|outline| camera.points(outline.at));
+        let body = (0.5 * camera.block).max(hull::half_height(outlines[0], camera));
+        let above = drawn[1] - body - 9.0;
         let has_room =
             width >= breakpoints::WORDS_BESIDE_BODIES && height >= breakpoints::LINE_OF_WORDS;
         if has_room && above > self.rect.min[1] + 6.0 {
