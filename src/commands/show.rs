@@ -10,7 +10,7 @@ use super::own_method::OrStepFile;
 use super::terminal::print_status;
 use crate::loops::PolicyCard;
 use crate::sim::integrators::{METHODS, Method};
-use crate::tools::source_code::{Language, Precision, source_code};
+use crate::tools::source_code::{Language, Precision, source_code, step_lines};
 
 const ABOUT: &str = "\
 A method of your own is a file of the lines of its step: see `regatta help step`. The comment has its
@@ -26,6 +26,7 @@ Examples:
   regatta show semi-implicit-euler --as csharp --float
   regatta show bdf2 --as c > bdf2.h
   regatta show my.step --as cpp
+  regatta show bdf2 --as step > my-bdf2.step
   regatta show fixed-linear --as cpp";
 
 /// Print a method or a game loop as code for your game
@@ -38,9 +39,10 @@ pub(super) struct ShowArgs {
     #[arg(value_name = "METHOD|POLICY|FILE", value_parser = ITEM_OR_FILE, hide_possible_values = true)]
     asked: ShownItem,
 
-    /// The language: rust, c, cpp, csharp or gdscript
+    /// The language: rust, c, cpp, csharp, gdscript or step
     ///
-    /// Methods have all of them, with the same code in cpp and c. Loops have rust, and some cpp and csharp.
+    /// Methods have all of them, with the same code in cpp and c. Loops have rust, and some cpp and csharp. `step` is
+    /// the language of a method of your own, to change and give back.
     #[arg(long = "as", value_name = "LANGUAGE", default_value = Language::Rust.id())]
     #[arg(value_parser = CODE_LANGUAGE, hide_possible_values = true)]
     language: CodeLanguage,
@@ -89,6 +91,8 @@ enum CodeLanguage {
     Of(Language),
     /// C++, in which some loops are available but no methods.
     Cpp,
+    /// The lines of a step.
+    Step,
 }
 
 const CODE_LANGUAGE: Id<CodeLanguage> = Id {
@@ -97,7 +101,8 @@ const CODE_LANGUAGE: Id<CodeLanguage> = Id {
     all: || {
         let methods =
             (LANGUAGE.all)().into_iter().map(|(id, language)| (id, CodeLanguage::Of(language)));
-        methods.chain([("cpp".into(), CodeLanguage::Cpp)]).collect()
+        let others = [("cpp", CodeLanguage::Cpp), ("step", CodeLanguage::Step)];
+        methods.chain(others.map(|(id, language)| (id.into(), language))).collect()
     },
     spellings: || vec![("c++", "cpp"), ("c#", "csharp")],
 };
@@ -107,6 +112,7 @@ impl CodeLanguage {
     fn of_loops(self) -> &'static str {
         match self {
             Self::Cpp => "c++",
+            Self::Step => "step",
             Self::Of(Language::CSharp) => "c#",
             Self::Of(language) => language.id(),
         }
@@ -126,10 +132,17 @@ pub(super) fn run(args: &ShowArgs) -> Result<(), Error> {
     let language = match args.language {
         CodeLanguage::Of(language) => language,
         // A C++ compiler accepts the C code.
-        CodeLanguage::Cpp => Language::C,
+        CodeLanguage::Cpp | CodeLanguage::Step => Language::C,
     };
     let precision = if args.float { Precision::Single } else { Precision::Double };
-    let code = source_code(method, language, precision).map_err(Error::mistake)?;
+    let code = match args.language {
+        CodeLanguage::Step if args.float => {
+            return Err(Error::mistake("--float is for code; the lines of a step are for both"));
+        }
+        CodeLanguage::Step => step_lines(method),
+        _ => source_code(method, language, precision),
+    };
+    let code = code.map_err(Error::mistake)?;
     if let Some(alias) = alias {
         print_status(&format!("note: {alias} is another name of {}, which is shown", method.id));
     }

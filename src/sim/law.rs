@@ -32,10 +32,12 @@ pub use expression::{MAX_BYTES, MAX_DEPTH};
 pub use fault::{ExpressionFault, LawFault, Part, Remedy};
 pub(in crate::sim) use registers::LawLanes;
 pub use registers::Registers;
-pub(crate) use step_text::{AT_TARGET, Frame, NO_RETURN, Powers, SwitchKind, remembers_place};
+pub(crate) use step_text::{
+    AT_TARGET, Frame, NO_RETURN, Powers, SHARED_STEPS, SwitchKind, remembers_place,
+};
 pub use step_text::{
-    Carried, LinearRule, MAX_STEP_BYTES, OwnLines, RuleBody, StepCall, StepCode, StepMap,
-    StepRegisters, StepText,
+    Carried, General, Input, LinearRule, MAX_STEP_BYTES, OwnLines, Request, RuleBody, StepCall,
+    StepCode, StepMap, StepRegisters, StepText,
 };
 pub use tape::MAX_OPERATIONS;
 pub use text::{CoordinateText, LawText, Layout};

@@ -4,7 +4,7 @@ use std::sync::{Mutex, PoisonError};
 
 use super::conformance;
 use super::integrators::{Family, METHODS, Method, Needs, Only};
-use super::law::{ExpressionFault, LinearRule, OwnLines, Remedy, RuleBody, StepText};
+use super::law::{ExpressionFault, Input, LinearRule, OwnLines, Remedy, RuleBody, StepText};
 use super::tick_rate::TickRate;
 
 /// The maximum number of characters in the id of an own method.
@@ -39,13 +39,37 @@ pub fn own_method(id: &str, text: &str) -> Result<&'static Method, ExpressionFau
             });
         }
         let code = read.code().map(|code| code.method()).unwrap_or_default();
-        Ok(conformance::measured(Box::leak(Box::new(Method {
+        let only = only(&read);
+        let made = Method {
+            only,
             about: "a method by lines of one's own",
             code: code.leak(),
             source: "lines of one's own; this card is measured",
             ..card(id, OwnLines::Method(read))
-        }))))
+        };
+        // The problems of the measurements have no target and no joint.
+        Ok(match only {
+            Some(_) => made,
+            None => conformance::measured(Box::leak(Box::new(made))),
+        })
     })
+}
+
+/// Returns the bodies that a method with these lines steps; `None` if it steps every body.
+fn only(text: &StepText) -> Option<Only> {
+    let needs = match text.law_order() {
+        Some(order) => Needs::Law { order },
+        None if text.takes(Input::Stiffness) => Needs::Engine,
+        None if text.takes(Input::Force) => Needs::EngineWithoutJoint,
+        None => return None,
+    };
+    let reason = match needs {
+        Needs::Law { .. } => {
+            "its lines take a target and a rate, so it steps only a body that follows a target"
+        }
+        _ => "its lines take the force on a body as an engine does",
+    };
+    Some(Only { needs, reason })
 }
 
 /// Returns the rule of these lines under this id, written for this many frames per second. As a method, a rule of one

@@ -134,8 +134,8 @@ impl Cell {
         self.camera.zoom_pan
     }
 
-    /// The greatest factor by which the cell may still be zoomed in: no part of its body that a hand can take grows beyond
-    /// half of the cell. Never below 1.
+    /// The greatest factor by which the cell may still be zoomed in: no part of its body that a hand can take grows
+    /// beyond half of the cell. Never below 1.
     pub fn max_zoom_in(&self, studio: &Studio) -> f64 {
         let own = self.seen.iter().filter(|(whose, _)| *whose != Whose::Truth);
         let own = own.flat_map(|(whose, q)| self.grips_of(studio, *whose, q));

@@ -36,10 +36,11 @@ pub fn orbit(
 }
 
 /// Whether the stage shows futures. It shows them while a person holds or drags the tick rate, for a second after a key
-/// has changed the rate, or on request while time stands still.
+/// has changed the rate, or on request while time stands still. None are shown before a prediction.
 pub fn shows_futures(studio: &Studio) -> bool {
     let is_dragged = studio.viewer.hz_at_press.is_some_and(|hz| hz != studio.deck.race().tick_hz());
     studio.loop_lab().is_none()
+        && !studio.viewer.is_asked()
         && (studio.deck.is_tick_rate_held()
             || is_dragged
             || studio.viewer.futures_left_ns > 0

@@ -126,8 +126,8 @@ pub(super) fn go_to_stop(deck: &mut Deck, viewer: &mut Viewer, index: usize) {
     viewer.tour = Some(tour);
 }
 
-/// Marks the stop's task as done if its goal is met and the person has predicted. `was_asked` is whether the stop waited
-/// for a prediction before the command. If it did and no longer does, time starts, unless the task is to step.
+/// Marks the stop's task as done if its goal is met and the person has predicted. `was_asked` is whether the stop
+/// waited for a prediction before the command. If it did and no longer does, time starts, unless the task is to step.
 pub(super) fn look_at_goal(
     deck: &mut Deck,
     viewer: &mut Viewer,

@@ -110,6 +110,22 @@ pub fn function_code(
     Ok(printer::print(method.id, &program, language, precision, &[]))
 }
 
+/// Returns the lines of a method's step, which can be changed and read again as a method. The lines of a method from
+/// the table stand below a comment made from its card.
+///
+/// # Errors
+/// If the method is [custom](Method::custom).
+pub fn step_lines(method: &Method) -> Result<String, NoSourceCode> {
+    if let Some(own) = method.own_text() {
+        return Ok(own.to_owned());
+    }
+    let language = Language::Rust;
+    let program = program(method, language, Precision::Double)?;
+    let header = header::lines(method, &program, language);
+    let header = header.iter().map(|line| format!("# {line}").trim_end().to_owned() + "\n");
+    Ok(header.collect::<String>() + "\n" + method.code)
+}
+
 /// Returns the function `rule` of a source, below a comment of these paragraphs.
 ///
 /// # Panics

@@ -193,7 +193,7 @@ macro_rules! methods {
             #[cfg(feature = "lab")]
             match method.own {
                 Some(crate::sim::law::OwnLines::Method(lines)) => {
-                    return construct.of(|like| step_method::StepMethod::of(lines, like));
+                    return construct.of(|like| step_method::StepMethod::of(lines, like, coupling));
                 }
                 Some(crate::sim::law::OwnLines::Rule(rule)) => {
                     return construct.of(|_| step_rule::StepRule::of(rule));

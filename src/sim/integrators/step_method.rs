@@ -1,48 +1,153 @@
 //! A method made of a person's own lines, which are read at run time.
 
 use super::failure::StepFailure;
+use super::integrator::Override;
 use super::prelude::*;
-use crate::sim::law::{StepRegisters, StepText};
+use super::shared::newton::Newton;
+use super::shared::slopes::Slopes;
+use super::shared::stages::Stages;
+use crate::sim::law::{General, Input, Request, StepRegisters, StepText};
+use crate::sim::system::{EngineSettings, Pursuit};
 
-/// A method made of lines that call the acceleration.
+/// A method made of lines that call the acceleration, or take the target or the settings of their body.
 #[derive(Clone)]
 pub(super) struct StepMethod<V> {
     /// The lines, and the numbers that they carry. If `None`, the method refuses every step.
     lines: Option<(&'static StepText, StepRegisters)>,
-    q: V,
-    v: V,
+    /// K and c of a joint, if they override the body's.
+    joint: Option<[f64; 2]>,
+    at: State<V>,
+    along: State<V>,
     a: V,
+    newton: Option<Box<Newton<V, 1>>>,
+    slopes: Slopes<V>,
 }
 
 impl<V: Vector> StepMethod<V> {
-    /// Returns the method of these lines, for coordinates shaped `like` these.
-    pub(super) fn of(lines: &'static StepText, like: &V) -> Self {
+    /// Returns the method of these lines, for coordinates shaped `like` these, with this coupling.
+    pub(super) fn of(lines: &'static StepText, like: &V, coupling: Coupling) -> Self {
         let registers = lines.method_registers(like.components().len());
-        let [q, v, a] = [(); 3].map(|()| like.clone());
-        Self { lines: Some((lines, registers)), q, v, a }
+        let solves = lines.uses(General::Solve);
+        let newton = solves.then(|| Box::new(Newton::new(like, coupling)));
+        Self { lines: Some((lines, registers)), newton, ..Self::without_lines(like) }
+    }
+
+    fn without_lines(like: &V) -> Self {
+        let state = State { q: like.clone(), v: like.clone() };
+        let (a, slopes) = (like.clone(), Slopes::new(like));
+        Self { lines: None, joint: None, at: state.clone(), along: state, a, newton: None, slopes }
+    }
+
+    fn advance<S: System<Vector = V>>(
+        &mut self,
+        system: &S,
+        t: f64,
+        h: f64,
+        substeps: u32,
+        state: &mut StateOf<S>,
+    ) -> Stepped {
+        let refused = |reason| Err(StepFailure::Refused { reason });
+        let Self { lines, joint, at, along, a, newton, slopes } = self;
+        let Some((lines, registers)) = lines else {
+            return refused("it was built without its card");
+        };
+        let size = state.q.components().len();
+        if size > 1 && lines.is_for_one_coordinate() {
+            return refused(
+                "its lines solve or divide the step of one coordinate, and the body has several",
+            );
+        }
+        if let Some(order) = lines.law_order() {
+            let pursuit = Pursuit::of(system, t + h).filter(|found| found.order == order);
+            let Some(Pursuit { target, rate, .. }) = pursuit else {
+                return refused(
+                    "its lines take the target and the rate of a body that follows one",
+                );
+            };
+            for (i, target) in target.components().iter().enumerate() {
+                lines.set_target(registers, i, *target);
+                lines.set_input(registers, Input::Rate, i, rate);
+            }
+        }
+        if lines.takes(Input::Force) {
+            let mut settings = EngineSettings::of(system, t, state, a);
+            if !lines.takes(Input::Stiffness) && settings.has_spring() {
+                return refused("its lines take no stiffness, and the body has a spring");
+            }
+            if let (Some([stiffness, damping]), true) = (*joint, settings.has_spring()) {
+                settings = EngineSettings { stiffness, damping, ..settings };
+            }
+            for (i, force) in a.components().iter().enumerate() {
+                for (input, value) in [
+                    (Input::Stiffness, settings.stiffness),
+                    (Input::Damping, settings.damping),
+                    (Input::Drag, settings.drag),
+                    (Input::Force, *force),
+                ] {
+                    lines.set_input(registers, input, i, value);
+                }
+            }
+        }
+        (0..size).for_each(|i| {
+            lines.set_input(registers, Input::Substeps, i, f64::from(substeps));
+        });
+        let moved = [state.q.components_mut(), state.v.components_mut()];
+        let mut solved = Ok(());
+        let has_ended = lines.step_method(registers, h, moved, |since, request, [q, v], found| {
+            let t = t + since;
+            at.q.components_mut().copy_from_slice(q);
+            at.v.components_mut().copy_from_slice(v);
+            match (request, &mut *newton) {
+                (Request::Solution { alpha, beta }, Some(newton)) if beta != 0.0 => {
+                    newton.base[0].assign(at);
+                    let stages = Stages { t: [t], alpha: [[alpha]], beta: [[beta]] };
+                    let done = newton.solve(system, &stages);
+                    if done.is_err() {
+                        solved = done;
+                    }
+                    found.copy_from_slice(newton.a[0].components());
+                }
+                (Request::Slope { along: [q, v], h, found: known }, _) => {
+                    along.q.components_mut().copy_from_slice(q);
+                    along.v.components_mut().copy_from_slice(v);
+                    a.components_mut().copy_from_slice(known);
+                    slopes.reach_for(h, at, a);
+                    slopes.differentiate(system, t, at, along, None, a);
+                    found.copy_from_slice(a.components());
+                }
+                _ => {
+                    system.acceleration(t, &at.q, &at.v, a);
+                    found.copy_from_slice(a.components());
+                }
+            }
+        });
+        solved?;
+        if has_ended { Ok(()) } else { refused("a loop of its lines has 65 536 turns in a step") }
     }
 }
 
 impl<S: System<Vector: Vector>> Integrator<S> for StepMethod<S::Vector> {
     /// Refuses every step, because only the card knows the lines.
     fn new(like: &S::Vector) -> Self {
-        let [q, v, a] = [(); 3].map(|()| like.clone());
-        Self { lines: None, q, v, a }
+        Self::without_lines(like)
     }
 
     fn step(&mut self, system: &S, t: f64, h: f64, state: &mut StateOf<S>) -> Stepped {
-        let Self { lines, q, v, a } = self;
-        let Some((lines, registers)) = lines else {
-            return Err(StepFailure::Refused { reason: "it was built without its card" });
-        };
-        let moved = [state.q.components_mut(), state.v.components_mut()];
-        lines.step_method(registers, h, moved, |since, at, with, found| {
-            q.components_mut().copy_from_slice(at);
-            v.components_mut().copy_from_slice(with);
-            system.acceleration(t + since, q, v, a);
-            found.copy_from_slice(a.components());
-        });
-        Ok(())
+        self.advance(system, t, h, 1, state)
+    }
+
+    fn steps(&mut self, system: &S, t: f64, h: f64, n: u32, state: &mut StateOf<S>) -> Stepped {
+        if self.lines.as_ref().is_some_and(|(lines, _)| lines.takes(Input::Substeps)) {
+            return self.advance(system, t, h, n, state);
+        }
+        let part = h / f64::from(n);
+        (0..n).try_for_each(|i| self.advance(system, t + part * f64::from(i), part, 1, state))
+    }
+
+    fn set(&mut self, with: Override) {
+        if let Override::Joint(joint) = with {
+            self.joint = Some(joint);
+        }
     }
 
     fn reset(&mut self) {

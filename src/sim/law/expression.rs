@@ -84,6 +84,14 @@ pub(super) trait Scope {
     fn names(&self) -> Vec<String>;
     /// Returns the reason why this name, which other expressions may use, is not allowed here.
     fn why_not(&self, name: &str) -> Option<String>;
+    /// Returns the value of a constant that every expression knows.
+    fn constant(&self, name: &str) -> Option<f64> {
+        (name == "pi").then_some(PI)
+    }
+    /// Returns the index of a function of the text, and whether each of its inputs is the acceleration.
+    fn own_function(&self, _name: &str) -> Option<(usize, Vec<bool>)> {
+        None
+    }
     /// Whether a call of this name is a call of the acceleration.
     fn is_acceleration(&self, _name: &str) -> bool {
         false
@@ -391,6 +399,9 @@ impl Parser<'_> {
         if is_call && self.scope.is_acceleration(&name) {
             return self.acceleration(span);
         }
+        if is_call && let Some((index, inputs)) = self.scope.own_function(&name) {
+            return self.apply(span, index, &inputs);
+        }
         let function = self.scope.function(&name);
         if let Some(function) = function.filter(|_| is_call || self.scope.input(&name).is_none()) {
             if !is_call {
@@ -406,8 +417,8 @@ impl Parser<'_> {
             }
             return Ok(self.node(Node::input(input), span));
         }
-        if name == "pi" {
-            return Ok(self.number(PI, span));
+        if let Some(value) = self.scope.constant(&name) {
+            return Ok(self.number(value, span));
         }
         if let Some(why) = self.scope.why_not(&name) {
             return fault(span, why, "remove it");

@@ -47,6 +47,8 @@ pub(super) fn is_linear(
             | Op::If
             | Op::Smooth(_)
             | Op::Call
+            | Op::Apply
+            | Op::Argument
             | Op::Switch(_) => match operands.iter().map(|&slot| of[slot as usize]).max() {
                 None | Some(Dependence::Constant) => Dependence::Constant,
                 _ => Dependence::Any,

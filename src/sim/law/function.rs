@@ -27,6 +27,8 @@ pub(super) enum Meaning {
     Power,
     /// An expression of the arguments and, in a step, of its length `dt`.
     Written(&'static str),
+    /// `x != x`.
+    IsNan,
 }
 
 /// A function of one or two arguments that is smooth wherever it is defined. Two functions are equal only if they are
@@ -123,7 +125,7 @@ pub(super) static FUNCTIONS: [Function; 21] = [
 ];
 
 /// The functions of step lines that laws do not have.
-pub(super) static STEP_FUNCTIONS: [Function; 31] = [
+pub(super) static STEP_FUNCTIONS: [Function; 32] = [
     written("lerp", &["a", "b", "part"], "a + (b - a) * part"),
     function("pow", &["base", "exponent"], Meaning::Power),
     // Halves go away from 0.
@@ -180,6 +182,7 @@ pub(super) static STEP_FUNCTIONS: [Function; 31] = [
         &["x", "to", "v", "time", "most", "dt"],
         "(v - 2 / time * (v + 2 / time * (x - to)) * dt) * damped(2 / time * dt)",
     ),
+    function("is_nan", &["x"], Meaning::IsNan),
 ];
 
 /// Names from other languages, each with our name. Capitals and underscores in a call do not matter.

@@ -2,6 +2,7 @@
 
 use super::function::Smooth;
 use super::switch::{ModeRule, Switch, SwitchValue};
+use crate::sim::curve::Curve;
 
 /// One operation. A truth value is 0 for false and 1 for true.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -22,15 +23,40 @@ pub(super) enum Op {
     Switch(Switch),
     /// A call of the acceleration by a step, at a position with a velocity. A third operand guards the call.
     Call,
+    /// A call of a function of the lines, whose operand is its last argument.
+    Apply,
+    /// An argument of such a call, after the argument before.
+    Argument,
 }
 
 impl Op {
+    /// Returns the value of an operation on numbers; 0 if it is no such operation.
+    #[inline]
+    pub(super) fn value(self, [a, b, c]: [f64; 3], table: Option<&Curve>) -> f64 {
+        match self {
+            Op::Negate => -a,
+            Op::Add => a + b,
+            Op::Subtract => a - b,
+            Op::Multiply | Op::And => a * b,
+            Op::Divide => a / b,
+            Op::Power => libm::pow(a, b),
+            Op::Or => f64::from(u8::from(a + b > 0.0)),
+            Op::Not => 1.0 - a,
+            Op::If if a == 1.0 => b,
+            Op::If => c,
+            Op::Smooth(smooth) => (smooth.value)(a, b),
+            Op::Switch(switch) => switch.value(a, b, table),
+            Op::Number | Op::Input | Op::Call | Op::Apply | Op::Argument => 0.0,
+        }
+    }
+
     /// Whether the value is a truth value, rather than a number.
     pub(super) fn is_truth(self) -> bool {
         match self {
             Op::And | Op::Or | Op::Not => true,
             Op::Switch(switch) => switch.is_truth(),
             Op::Number | Op::Input | Op::Negate | Op::If | Op::Smooth(_) | Op::Call => false,
+            Op::Apply | Op::Argument => false,
             Op::Add | Op::Subtract | Op::Multiply | Op::Divide | Op::Power => false,
         }
     }

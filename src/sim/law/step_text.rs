@@ -2,7 +2,8 @@
 //!
 //! The expressions are those of laws. All lines become one tape, so that a step has the same bits everywhere and
 //! allocates nothing. Both blocks of an `if` are evaluated, and one of them gives the values. A name that is read
-//! before the lines assign it is carried from step to step, like `x` and `v`.
+//! before the lines assign it is carried from step to step, like `x` and `v`. Lines that call the acceleration or take
+//! the settings of a body are a method, which may also have loops and functions; see [`method`].
 
 use std::ops::Range;
 
@@ -15,12 +16,14 @@ use super::tape::Tape;
 pub use code::StepCode;
 pub(crate) use linear::{AT_TARGET, Frame, NO_RETURN, remembers_place};
 pub use linear::{LinearRule, RuleBody};
-pub use method::StepCall;
-use paths::Component;
+use method::{Function, Machine, Taken};
+pub use method::{General, Input, Request, StepCall};
+use paths::of_one_component;
 use plain::plain;
 pub(crate) use powers::Powers;
 use reader::Reader;
-use statements::{Statement, statements};
+pub(crate) use reader::SHARED_STEPS;
+use statements::statements;
 
 mod code;
 mod linear;
@@ -80,10 +83,20 @@ const OTHER_NAMES: [(usize, &[&str]); 3] = [
 /// A line, with its names as indices among the inputs.
 #[derive(Debug)]
 enum Line {
-    Assign { name: usize, joins: &'static str, value: Expression },
+    Assign {
+        name: usize,
+        joins: &'static str,
+        value: Expression,
+    },
     If(Expression),
     Else,
+    While(Expression),
     End,
+    Return(Expression),
+    /// Ends the step. If it fails, `x` and `v` become NaN.
+    Stop {
+        fails: bool,
+    },
 }
 
 /// A number carried from one step to the next.
@@ -105,9 +118,15 @@ pub struct StepText {
     carried: Vec<Carried>,
     /// The operations of a step. The outputs are the carried numbers after the step, in the order of `carried`.
     tape: Tape,
-    /// The byte range of the first call of the acceleration; `None` in a rule, which has no call.
-    call: Option<Range<usize>>,
-    calls: Vec<StepCall>,
+    /// The byte range of the first call of the acceleration, or of the first setting that only a method has. `None` in
+    /// a rule.
+    method_at: Option<Range<usize>>,
+    /// The inputs that the text takes besides the acceleration and the target.
+    inputs: Vec<Taken>,
+    functions: Vec<Function>,
+    /// Whether a step depends on the velocity before it.
+    reads_velocity: bool,
+    machine: Machine,
     left_out: Option<[char; 2]>,
 }
 
@@ -117,8 +136,10 @@ pub struct StepRegisters {
     /// The slots, coordinate after coordinate.
     slots: Vec<f64>,
     next: Vec<f64>,
-    /// The positions and the velocities of a call, and the accelerations there, with one number for each coordinate.
-    asked: [Vec<f64>; 3],
+    /// The answer to a request, with one number for each coordinate.
+    answer: Vec<f64>,
+    /// For each level of blocks, whether each coordinate runs it.
+    masks: Vec<bool>,
 }
 
 /// The carried numbers after a step, and their derivatives with respect to each carried number and then the target.
@@ -162,18 +183,15 @@ impl StepText {
         }
         let (plain, components) = plain(text);
         let (statements, left_out) = of_one_component(statements(&plain)?, &components)?;
-        let mut reader = Reader::new(&plain, &statements)?;
-        for statement in statements {
-            reader.read_statement(statement)?;
-        }
-        Ok(Self { source: text.to_owned(), left_out, ..reader.finish()? })
+        let read = Reader::read(&plain, &statements)?;
+        Ok(Self { source: text.to_owned(), left_out, ..read }.timed())
     }
 
     /// Reads the text of a rule, which calls no acceleration. If the text does call the acceleration, the fault has
     /// this remedy.
     pub(crate) fn read_rule(text: &str, remedy: &str) -> Result<Self, ExpressionFault> {
         let read = Self::read(text)?;
-        match read.acceleration_at() {
+        match read.method_at.clone() {
             Some(at) => fault(at, "a rule is the whole motion, and calls no acceleration", remedy),
             None => Ok(read),
         }
@@ -228,7 +246,8 @@ impl StepText {
 
     /// Whether a step leaves this carried number unchanged.
     pub fn leaves_unchanged(&self, index: usize) -> bool {
-        usize::from(self.tape.outputs[index]) == self.carried[index].input
+        let output = self.tape.outputs.get(index);
+        output.is_some_and(|output| usize::from(*output) == self.carried[index].input)
     }
 
     /// Returns the registers of a body before its first step, at 0 and at rest.
@@ -236,7 +255,8 @@ impl StepText {
         let mut registers = StepRegisters {
             slots: vec![0.0; self.tape.slots],
             next: vec![0.0; self.carried.len()],
-            asked: [const { Vec::new() }; 3],
+            answer: Vec::new(),
+            masks: Vec::new(),
         };
         for carried in &self.carried {
             registers.slots[carried.input] = carried.start;
@@ -318,34 +338,6 @@ impl StepText {
         self.tape
             .switch_origins()
             .map(|(kind, span)| (kind, self.source.get(span.clone()).unwrap_or_default().trim()))
-    }
-}
-
-/// Returns the statements of the first component of the vectors of a text, and this component with the first other.
-fn of_one_component(
-    mut statements: Vec<Statement>,
-    components: &[Component],
-) -> Result<(Vec<Statement>, Option<[char; 2]>), ExpressionFault> {
-    let Some(first) = components.first() else { return Ok((statements, None)) };
-    let is_other = |component: &&Component| component.letter != first.letter;
-    let Some(other) = components.iter().find(is_other) else { return Ok((statements, None)) };
-    let mut left = components.iter().filter(is_other).collect::<Vec<_>>();
-    statements.retain(|statement| {
-        let Statement::Assign { name, value, .. } = statement else { return true };
-        let within = |component: &&Component| (name.start..value.end).contains(&component.at);
-        let mut inside = components.iter().filter(within).peekable();
-        let is_kept = inside.peek().is_none() || inside.any(|it| it.letter == first.letter);
-        left.retain(|component| is_kept || !within(component));
-        is_kept
-    });
-    let letters = [first, other].map(|component| char::from(component.letter));
-    match left.first() {
-        Some(mixed) => fault(
-            mixed.at..mixed.at + 1,
-            format!("a line mixes the components {} and {} of vectors", letters[0], letters[1]),
-            "a step moves one number: write the lines of one component",
-        ),
-        None => Ok((statements, Some(letters))),
     }
 }
 
@@ -465,6 +457,29 @@ mod tests {
             ("memory k = x; x = k", 10..12, "a memory starts as a finite number"),
             ("memory k = x + 1; x = k", 10..16, "a memory starts as a finite number"),
             ("x +=", 4..4, "the expression is empty"),
+            ("while x < 1 { x += 1 }", 0..5, "`while` cannot stand in a rule"),
+            ("fail; x = 1", 0..4, "`fail` cannot stand in a rule"),
+            ("takes mass: of it\nx = 1", 6..10, "no body gives a step `mass`"),
+            ("use glue; x = a(x, v)", 4..8, "nothing shared is called `glue`"),
+            ("return x; x = a(x, v)", 0..6, "`return` cannot stand in a step"),
+            ("fn f(x) { let y = x }; x = a(f(x), v)", 3..4, "the function can end without a value"),
+            (
+                "fn f(x) { return x }; x = a(f(x, v), v)",
+                28..35,
+                "the function takes 1 arguments, not 2",
+            ),
+            (
+                "fn f(a(x, v), x) { return a(x, x) }; x = f(x, v)",
+                43..44,
+                "the function takes the acceleration here",
+            ),
+            (
+                "if x < 0 { fn f(x) { return x } }; x = a(x, v)",
+                14..15,
+                "the function stands in a block, or is not closed",
+            ),
+            ("fn f(x) { fail; return x }; x = a(x, v)", 10..14, "a function cannot end the step"),
+            ("takes rate: k\nrate = 2; x = 1", 14..18, "a step cannot change its setting"),
         ] {
             assert_eq!(fault_of(text), (at, what.to_owned()), "{text}");
         }
@@ -500,6 +515,17 @@ mod tests {
             "\n",
             "if ",
             "else ",
+            "while ",
+            "fn f(a(x, v), x) {",
+            "return ",
+            "f(a, x)",
+            "a(x, v)",
+            "use solve\n",
+            "takes rate: k\n",
+            "fail;",
+            "count ",
+            "is_nan(",
+            "}",
             "let ",
             "memory ",
             "0.5f",
@@ -528,6 +554,11 @@ mod tests {
                 Ok(text) => {
                     let mut registers = text.registers();
                     (0..3).for_each(|_| text.step(&mut registers, 0.1, 1.0));
+                    let mut registers = text.method_registers(2);
+                    let moved = [&mut [0.5, 1.0][..], &mut [0.0; 2]];
+                    text.step_method(&mut registers, 0.1, moved, |_, _, [x, _], a| {
+                        a.copy_from_slice(x)
+                    });
                     let _ = (text.map(0.1, &vec![0.5; text.carried().len()], 1.0), text.code());
                 }
                 Err(fault) => assert!(text.get(fault.span).is_some(), "{text}"),

@@ -32,17 +32,6 @@ struct Instruction {
     table: u16,
 }
 
-/// A call among the operations, with its index in the main part, and the slots of its operands and its value.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Call {
-    pub(super) at: usize,
-    pub(super) x: usize,
-    pub(super) v: usize,
-    /// The slot of the guard, which is 1 if the call is made; `None` if the call is always made.
-    pub(super) guard: Option<usize>,
-    pub(super) to: usize,
-}
-
 /// The kind of a switch.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum SwitchKind {
@@ -145,9 +134,7 @@ impl Tape {
         let table = node.op.is_table().then(|| &expression.tables[node.index]);
         let points = table.map_or(&[][..], Curve::points);
         let bits = points.iter().map(|point| point.map(f64::to_bits)).collect();
-        // Each call has a slot of its own, even if the operands are equal.
-        let number = if node.op == Op::Call { node.index as u64 } else { node.number.to_bits() };
-        let key = (node.op, operands, number, bits);
+        let key = (node.op, operands, node.number.to_bits(), bits);
         if let Some(&slot) = known.get(&key) {
             return slot;
         }
@@ -156,8 +143,7 @@ impl Tape {
         known.insert(key, to);
         self.origins.insert(to, origin);
         let count = node.arguments().len();
-        let is_constant =
-            node.op != Op::Call && operands[..count].iter().all(|&slot| is_fixed[slot as usize]);
+        let is_constant = operands[..count].iter().all(|&slot| is_fixed[slot as usize]);
         is_fixed.push(is_constant);
         let index = self.tables.len() as u16;
         self.tables.extend(table.cloned());
@@ -186,29 +172,6 @@ impl Tape {
     #[inline]
     pub(super) fn evaluate(&self, slots: &mut [f64]) {
         self.run(slots, Switch::value);
-    }
-
-    /// Evaluates a range of the main operations.
-    #[inline]
-    pub(super) fn evaluate_part(&self, part: Range<usize>, slots: &mut [f64]) {
-        let (slots, _) = slots.as_chunks_mut::<1>();
-        self.run_lanes(&self.main[part], slots, &[], Switch::value);
-    }
-
-    /// Returns the number of operations of the main part.
-    pub(super) fn length(&self) -> usize {
-        self.main.len()
-    }
-
-    /// Returns the calls, in the order in which they are made.
-    pub(super) fn calls(&self) -> Vec<Call> {
-        let call = |(at, instruction): (usize, &Instruction)| {
-            let [x, v, guard] = instruction.operands.map(usize::from);
-            let guard = (instruction.count > 2).then_some(guard);
-            Call { at, x, v, guard, to: usize::from(instruction.to) }
-        };
-        let all = self.main.iter().enumerate();
-        all.filter(|(_, instruction)| instruction.op == Op::Call).map(call).collect()
     }
 
     /// Evaluates the tape on several motions at once. `alike` is the result of [`Tape::alike`].
@@ -367,8 +330,8 @@ impl Tape {
                     let table = self.table(instruction);
                     from_fn(|i| switched(switch, a[i], b[i], table))
                 }
-                // The caller writes these slots.
-                Op::Number | Op::Input | Op::Call => slots[to],
+                // A tape has no calls, and its caller writes these slots.
+                Op::Number | Op::Input | Op::Call | Op::Apply | Op::Argument => slots[to],
             };
             slots[to] = value;
         }
@@ -377,10 +340,8 @@ impl Tape {
 
 fn jet(op: Op, [a, b, c]: [Jet; 3], table: Option<&Curve>) -> Jet {
     match op {
-        // These values are in their slots already.
-        Op::Number | Op::Input => a,
-        // The derivative of a call is unknown.
-        Op::Call => [f64::NAN; 3],
+        // These values are in their slots already, and a tape has no calls.
+        Op::Number | Op::Input | Op::Call | Op::Apply | Op::Argument => a,
         Op::Negate => a.map(|x| -x),
         Op::Add => jet::sum(a, b),
         Op::Subtract => jet::difference(a, b),

@@ -3,6 +3,7 @@
 use std::collections::BTreeSet;
 
 use super::dialect::Language;
+use crate::sim::law::SHARED_STEPS;
 
 /// An input of the function besides `x`, `v` and `h`.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -93,14 +94,6 @@ pub(super) struct Program<'a> {
 /// moment at which the method holds a time-dependent force.
 const CLAIMS: [&str; 5] = ["order", "stability", "symplectic", "several", "held"];
 
-/// Functions that several methods share.
-const SHARED: [(&str, &str); 4] = [
-    ("slope", include_str!("../../../assets/methods/shared/slope.step")),
-    ("solve", include_str!("../../../assets/methods/shared/solve.step")),
-    ("steady", include_str!("../../../assets/methods/shared/steady.step")),
-    ("step-size", include_str!("../../../assets/methods/shared/step-size.step")),
-];
-
 impl<'a> Program<'a> {
     /// Reads a source.
     ///
@@ -132,7 +125,7 @@ impl<'a> Program<'a> {
                     program.memory.push(StateVariable { name, start });
                 }
                 "use" => {
-                    let shared = SHARED.iter().find(|(name, _)| *name == rest);
+                    let shared = SHARED_STEPS.iter().find(|(name, _)| *name == rest);
                     let (_, text) = shared.unwrap_or_else(|| panic!("no shared source {rest}"));
                     program.functions.extend(Program::read(text).functions);
                 }

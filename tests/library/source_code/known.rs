@@ -108,16 +108,28 @@ impl System for Run {
 
 /// The states that the method of the table passes through.
 pub(crate) fn steps(method: &Method, case: &Case) -> Vec<[f64; 2]> {
+    steps_as(method, method, case)
+}
+
+/// The states that `stepped` passes through, with the body and the substeps of the method `like`.
+pub(crate) fn steps_as(stepped: &Method, like: &Method, case: &Case) -> Vec<[f64; 2]> {
+    let method = like;
     let force = FORCES[case.force].a;
     let order = method.law_order().unwrap_or(1);
     let run = problem(Run { force, order, has_joint: method.has_joint() });
     let [q, v] = case.start;
     let mut state = State { q, v };
-    let mut stepper = fresh(method);
+    let mut stepper = fresh(stepped);
     (0..STEPS)
         .map(|n| {
             let h = case.length(n);
-            let substeps = if method.engine.is_some_and(|engine| engine.has_substeps()) {
+            // The lines of an engine whose iterations change nothing take no substeps.
+            let takes =
+                |source: MethodSource| source.inputs().iter().any(|input| input.name == "substeps");
+            let is_whole = stepped.is_from_outside() && !MethodSource::of(like).is_some_and(takes);
+            let substeps = if is_whole {
+                1
+            } else if method.engine.is_some_and(|engine| engine.has_substeps()) {
                 SUBSTEPS
             } else {
                 1

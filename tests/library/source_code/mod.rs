@@ -7,6 +7,6 @@ mod copying;
 mod drivers;
 mod gdscript;
 mod held;
-mod known;
+pub(crate) mod known;
 mod text;
 mod words;

@@ -51,7 +51,7 @@ fn mistakes_in_own_methods_are_reported_with_place_and_remedy() {
             "\"rk4\" is a name of the built-in method rk4; give it another name",
         ),
         ("aim.step", "v += a(target, v) * dt", "a method moves by `a(x, v)`, and has no target"),
-        ("while.step", "while x < 1 { v += a(x, v) }", "`while` cannot stand in a step"),
+        ("for.step", "for x < 1 { v += a(x, v) }", "`for` cannot stand in a step"),
     ] {
         let path = file(folder.path(), name, text);
         let output = regatta().args(["trace", "--method", &path]).output().unwrap();

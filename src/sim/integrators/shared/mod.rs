@@ -10,7 +10,7 @@ pub(super) mod linear_flow;
 pub(super) mod linearisation;
 mod lu;
 pub(super) mod newton;
-mod slopes;
+pub(super) mod slopes;
 pub(super) mod stages;
 pub(super) mod step_size;
 

@@ -7,7 +7,7 @@ use crate::sim::curve::Curve;
 use crate::sim::law::fault::{Parsed, fault};
 use crate::sim::law::function::{Function, Meaning};
 use crate::sim::law::op::Op;
-use crate::sim::law::switch::Switch;
+use crate::sim::law::switch::{ModeRule, Switch, SwitchValue};
 use crate::sim::law::token::Token;
 use crate::sim::parameter::MAX_POINTS;
 
@@ -90,6 +90,10 @@ impl Parser<'_> {
             Meaning::If => self.push(Op::If, &arguments, span),
             Meaning::Written(_) => self.written(function, &arguments, &span),
             Meaning::Power => self.push(Op::Power, &arguments, span),
+            Meaning::IsNan => {
+                let differs = Switch { pieces: ModeRule::Order, value: SwitchValue::NotEqual };
+                self.push(Op::Switch(differs), &[arguments[0], arguments[0]], span)
+            }
             Meaning::Table => {
                 let node = self.push(Op::Switch(Switch::TABLE), &arguments, span);
                 self.expression.nodes[node].index = self.expression.tables.len();
@@ -142,6 +146,46 @@ impl Parser<'_> {
             arguments.push(self.node(Node::input(v), span.clone()));
         }
         Ok(self.push(Op::Call, &arguments, span))
+    }
+
+    /// Reads a call of a function of the lines after its name.
+    pub(super) fn apply(
+        &mut self,
+        name: Range<usize>,
+        index: usize,
+        inputs: &[bool],
+    ) -> Parsed<usize> {
+        self.next += 1;
+        let (mut last, mut count) = (None, 0);
+        loop {
+            let takes_acceleration = inputs.get(count) == Some(&true);
+            if takes_acceleration {
+                if self.peek() != Token::Name || !self.scope.is_acceleration(self.token_text()) {
+                    let what = "the function takes the acceleration here";
+                    return fault(self.here(), what, "write `a`");
+                }
+                self.next += 1;
+            } else {
+                let argument = self.nested(Self::any)?;
+                let argument = self.want_number(argument)?;
+                let operands: Vec<usize> = last.into_iter().chain([argument]).collect();
+                let span = self.span_of(argument);
+                last = Some(self.push(Op::Argument, &operands, span));
+            }
+            count += 1;
+            if !self.consume_if(",") {
+                break;
+            }
+        }
+        self.expect(")", "the arguments")?;
+        let span = name.start..self.tokens[self.next - 1].1.end;
+        if count != inputs.len() {
+            let what = format!("the function takes {} arguments, not {count}", inputs.len());
+            return fault(span, what, "write as many as its first line names");
+        }
+        let node = self.push(Op::Apply, &last.into_iter().collect::<Vec<_>>(), span);
+        self.expression.nodes[node].index = index;
+        Ok(node)
     }
 
     /// Reads the points of a table.

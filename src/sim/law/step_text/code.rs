@@ -1,16 +1,19 @@
 //! Translates the lines of a step to the language of `assets/methods`, which has a printer for other languages.
 
+use super::method::Function;
 use super::reader::FIELD;
 use super::{BUILT_IN, Carried, H, Line, StepText, V};
 use crate::sim::law::expression::Expression;
 use crate::sim::law::function::{FUNCTIONS, Meaning, STEP_FUNCTIONS};
-use crate::sim::law::op::{INFIXES, Level, Op};
+use crate::sim::law::op::{INFIXES, Infix, Level, Op};
 
 /// The lines of a step, as code.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct StepCode {
-    /// Functions that the lines call and that some languages lack.
-    pub functions: Vec<&'static str>,
+    /// The inputs of a method, each with its description.
+    pub inputs: Vec<String>,
+    /// Functions that the lines call, which are their own or those that some languages lack.
+    pub functions: Vec<String>,
     /// The fields of `memory`, each with its first value.
     pub memory: Vec<(String, f64)>,
     /// The lines. The carried numbers of the text are fields of `memory`, and the length of a step is called
@@ -24,8 +27,8 @@ impl StepCode {
 
     /// Returns the code of a method in the language of `assets/methods`.
     pub(in crate::sim) fn method(&self) -> String {
-        let Self { functions, memory, lines } = self;
-        let mut text = "takes a(x, v): the acceleration at position x and velocity v\n".to_owned();
+        let Self { inputs, functions, memory, lines } = self;
+        let mut text: String = inputs.iter().map(|input| format!("takes {input}\n")).collect();
         text.extend(memory.iter().map(|(field, start)| match start.is_nan() {
             true => format!("memory {field} = nan\n"),
             false => format!("memory {field} = {start:?}\n"),
@@ -35,6 +38,9 @@ impl StepCode {
         text + "\n"
     }
 }
+
+/// Separates the arguments of a call until the call is written. No name or number contains it.
+const ARGUMENTS: &str = "\n";
 
 /// The maximum number of bytes of an expression.
 const MAX_CODE_BYTES: usize = 4096;
@@ -98,23 +104,73 @@ impl StepText {
         let memory = self.carried.iter().filter(|carried| carried.input > V);
         let memory = memory.map(|carried| (carried.field(), carried.start)).collect();
         let mut code = StepCode { memory, ..StepCode::default() };
-        let mut is_known: Vec<bool> =
-            (0..self.names.len()).map(|name| self.is_state(name)).collect();
+        if self.method_at.is_some() {
+            let about = "a(x, v): the acceleration at position x and velocity v".to_owned();
+            code.inputs.extend((!self.calls().is_empty()).then_some(about));
+            code.inputs.extend(self.takes_rate().then(|| "target: the target of x".to_owned()));
+            let own = self.inputs.iter().map(|taken| {
+                let line = self.source[taken.span.start..].lines().next().unwrap_or_default();
+                let about =
+                    line.split_once(": ").map_or("a setting of the body", |(_, about)| about);
+                format!("{}: {}", &self.source[taken.span.clone()], about.trim())
+            });
+            code.inputs.extend(own);
+        }
+        for function in &self.functions {
+            let mut body = StepCode::default();
+            let scope = Scope { text: self, function: Some(function) };
+            scope.block(&function.lines, &mut body)?;
+            code.functions.append(&mut body.functions);
+            let mut names = function.names.iter();
+            let inputs = function.inputs.iter().map(|is_acceleration| match is_acceleration {
+                true => "a(x, v)".to_owned(),
+                false => names.next().map_or_else(String::new, |name| unreserved_name(name)),
+            });
+            let inputs = inputs.collect::<Vec<_>>().join(", ");
+            let name = unreserved_name(&function.name);
+            let lines: String = body.lines.iter().map(|line| format!("    {line}\n")).collect();
+            code.functions.push(format!("fn {name}({inputs}) {{\n{lines}}}\n"));
+        }
+        Scope { text: self, function: None }.block(&self.lines, &mut code)?;
+        Ok(code)
+    }
+
+    fn takes_rate(&self) -> bool {
+        self.law_order().is_some()
+    }
+}
+
+/// The names of the step, or of one of its functions.
+#[derive(Clone, Copy)]
+struct Scope<'t> {
+    text: &'t StepText,
+    function: Option<&'t Function>,
+}
+
+impl Scope<'_> {
+    /// Translates lines, and declares names where they first get a value, or above all lines if that is in a block.
+    fn block(self, all: &[Line], code: &mut StepCode) -> Result<(), String> {
+        let names = self.function.map_or(&self.text.names, |function| &function.names);
+        let mut is_known: Vec<bool> = (0..names.len()).map(|name| self.is_state(name)).collect();
         let mut depth = 0;
         let mut body = Vec::new();
-        for line in &self.lines {
+        for line in all {
             body.push(match line {
-                Line::If(condition) => {
+                Line::If(condition) | Line::While(condition) => {
                     depth += 1;
-                    format!("if {} {{", self.expression(condition, &mut code)?)
+                    let word = if matches!(line, Line::If(_)) { "if" } else { "while" };
+                    format!("{word} {} {{", self.expression(condition, code)?)
                 }
                 Line::Else => "} else {".into(),
                 Line::End => {
                     depth -= 1;
                     "}".into()
                 }
+                Line::Return(value) => format!("return {}", self.expression(value, code)?),
+                Line::Stop { fails: true } => "fail".into(),
+                Line::Stop { fails: false } => "stay".into(),
                 Line::Assign { name, joins, value } => {
-                    let (value, written) = (self.expression(value, &mut code)?, self.name(*name));
+                    let (value, written) = (self.expression(value, code)?, self.name(*name));
                     if is_known[*name] {
                         format!("{written} {joins}= {value}")
                     } else {
@@ -122,7 +178,7 @@ impl StepText {
                         let assigns = |line: &&Line| {
                             matches!(line, Line::Assign { name: other, .. } if other == name)
                         };
-                        match (depth, self.lines.iter().filter(assigns).count()) {
+                        match (depth, all.iter().filter(assigns).count()) {
                             (0, 1) => format!("let {written} = {value}"),
                             (0, _) => format!("var {written} = {value}"),
                             _ => {
@@ -135,28 +191,44 @@ impl StepText {
             });
         }
         code.lines.extend(body);
-        Ok(code)
+        Ok(())
     }
 
     /// Whether a name has a value before the first line.
-    fn is_state(&self, name: usize) -> bool {
-        name < BUILT_IN.len() || self.carried.iter().any(|carried| carried.input == name)
+    fn is_state(self, name: usize) -> bool {
+        let text = self.text;
+        match self.function {
+            Some(function) => name < function.inputs.iter().filter(|is| !**is).count(),
+            None => {
+                name < BUILT_IN.len()
+                    || text.carried.iter().any(|carried| carried.input == name)
+                    || text.inputs.iter().any(|taken| taken.name == name)
+            }
+        }
     }
 
-    fn name(&self, index: usize) -> String {
-        let name = &self.names[index];
+    /// Whether a name is carried in the memory.
+    fn is_carried(self, name: usize) -> bool {
+        self.text.carried.iter().any(|carried| carried.input == name)
+    }
+
+    fn name(self, index: usize) -> String {
+        if let Some(function) = self.function {
+            return unreserved_name(&function.names[index]);
+        }
+        let name = &self.text.names[index];
         match index {
-            H if self.call.is_none() => StepCode::STEP.into(),
+            H if self.text.method_at.is_none() => StepCode::STEP.into(),
             _ if index < BUILT_IN.len() => name.clone(),
-            _ if self.is_state(index) => {
+            _ if self.is_carried(index) => {
                 format!("memory.{}", unreserved_name(name.strip_prefix(FIELD).unwrap_or(name)))
             }
-            _ if name == "a" && self.call.is_some() => "a_own".into(),
+            _ if name == "a" && self.text.method_at.is_some() => "a_own".into(),
             _ => unreserved_name(name),
         }
     }
 
-    fn expression(&self, expression: &Expression, code: &mut StepCode) -> Result<String, String> {
+    fn expression(self, expression: &Expression, code: &mut StepCode) -> Result<String, String> {
         let mut written: Vec<LevelledCode> = Vec::new();
         for node in &expression.nodes {
             let operand = |n: usize| &written[node.arguments()[n]];
@@ -166,7 +238,28 @@ impl StepText {
             };
             let infix = INFIXES.iter().find(|infix| infix.op == node.op && !infix.is_swapped);
             let new: LevelledCode = match (node.op, infix) {
+                (Op::Number, _) if node.number.is_nan() => ("nan".into(), None),
                 (Op::Number, _) => (format!("{:?}", node.number), None),
+                // The arguments so far, in order.
+                (Op::Argument, _) => {
+                    let all: Vec<&str> = node.arguments().iter().map(|n| &*written[*n].0).collect();
+                    (all.join(ARGUMENTS), None)
+                }
+                (Op::Apply, _) => {
+                    let function = &self.text.functions[node.index];
+                    let given = node.arguments().first().map_or("", |n| &*written[*n].0);
+                    let mut given = given.split(ARGUMENTS);
+                    let all = function.inputs.iter().map(|is_acceleration| {
+                        if *is_acceleration { "a" } else { given.next().unwrap_or_default() }
+                    });
+                    let all = all.collect::<Vec<_>>().join(", ");
+                    (format!("{}({all})", unreserved_name(&function.name)), None)
+                }
+                (Op::Switch(_), Some(Infix { sign: "!=", .. }))
+                    if node.arguments()[0] == node.arguments()[1] =>
+                {
+                    (format!("is_nan({})", operand(0).0), None)
+                }
                 (Op::Input, _) => (self.name(node.index), None),
                 (Op::Power, _) => call("pow"),
                 (Op::Call, _) => {
@@ -193,7 +286,7 @@ impl StepText {
                             .to_owned()
                     })?;
                     let own = WRITTEN_OUT.iter().find(|(function, _)| *function == name);
-                    let own = own.map(|(_, text)| *text);
+                    let own = own.map(|(_, text)| (*text).to_owned());
                     let own = own.filter(|text| !code.functions.contains(text));
                     code.functions.extend(own);
                     call(name)

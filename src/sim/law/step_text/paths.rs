@@ -2,7 +2,9 @@
 
 use std::ops::Range;
 
+use super::statements::Statement;
 use super::{BUILT_IN, OTHER_NAMES, STEP_NAMES, TARGET, V, X};
+use crate::sim::law::fault::{ExpressionFault, fault};
 use crate::sim::law::function::Function;
 use crate::sim::law::token::is_name_part;
 
@@ -164,6 +166,34 @@ pub(super) fn damped_velocity(text: &str, value: &Range<usize>) -> Option<Range<
 
 /// Unity's spring, which also assigns its velocity.
 pub(super) const SMOOTH_DAMP: &str = "smoothDamp";
+
+/// Returns the statements of the first component of the vectors of a text, and this component with the first other.
+pub(super) fn of_one_component(
+    mut statements: Vec<Statement>,
+    components: &[Component],
+) -> Result<(Vec<Statement>, Option<[char; 2]>), ExpressionFault> {
+    let Some(first) = components.first() else { return Ok((statements, None)) };
+    let is_other = |component: &&Component| component.letter != first.letter;
+    let Some(other) = components.iter().find(is_other) else { return Ok((statements, None)) };
+    let mut left = components.iter().filter(is_other).collect::<Vec<_>>();
+    statements.retain(|statement| {
+        let Statement::Assign { name, value, .. } = statement else { return true };
+        let within = |component: &&Component| (name.start..value.end).contains(&component.at);
+        let mut inside = components.iter().filter(within).peekable();
+        let is_kept = inside.peek().is_none() || inside.any(|it| it.letter == first.letter);
+        left.retain(|component| is_kept || !within(component));
+        is_kept
+    });
+    let letters = [first, other].map(|component| char::from(component.letter));
+    match left.first() {
+        Some(mixed) => fault(
+            mixed.at..mixed.at + 1,
+            format!("a line mixes the components {} and {} of vectors", letters[0], letters[1]),
+            "a step moves one number: write the lines of one component",
+        ),
+        None => Ok((statements, Some(letters))),
+    }
+}
 
 #[cfg(test)]
 mod tests {

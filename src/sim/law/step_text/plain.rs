@@ -6,7 +6,10 @@ use crate::sim::law::token::is_name_part;
 
 /// Beginnings of lines of `assets/methods` that describe a method for people.
 const HEADINGS: [&str; 6] =
-    ["takes a(", "order: ", "stability: ", "symplectic: ", "several: ", "held: "];
+    ["order: ", "stability: ", "symplectic: ", "several: ", "held: ", "refused"];
+
+/// The word that begins the line of an input, whose description follows a colon.
+const INPUT: &str = "takes ";
 
 /// The prefix of a carried number, if a name without the prefix means another number.
 const MEMORY: &str = "memory";
@@ -33,6 +36,13 @@ pub(super) fn plain(text: &str) -> (String, Vec<Component>) {
         let is_heading = |heading: &&str| begins && rest.starts_with(heading.as_bytes());
         at += match rest[0] {
             _ if HEADINGS.iter().any(is_heading) => blank(&mut plain, line_length(rest)),
+            _ if begins && rest.starts_with(INPUT.as_bytes()) => {
+                let line = &rest[..line_length(rest)];
+                let ends = line.windows(2).position(|two| two == b": ");
+                let kept = ends.unwrap_or(line.len());
+                plain[at + kept..at + line.len()].fill(b' ');
+                line.len()
+            }
             b'#' => blank(&mut plain, line_length(rest)),
             b'/' if rest.starts_with(b"//") => blank(&mut plain, line_length(rest)),
             b'/' if rest.starts_with(b"/*") => {
@@ -83,6 +93,11 @@ fn number_length(rest: &[u8]) -> (usize, usize) {
         after.starts_with(suffix.as_bytes())
             && !after.get(suffix.len()).copied().is_some_and(is_name_part)
     };
+    // A number in single precision follows that in double precision.
+    if let [b'|', b'0'..=b'9', ..] = after {
+        let (single, suffix) = number_length(&after[1..]);
+        return (length, 1 + single + suffix);
+    }
     let suffix = SUFFIXES.iter().find(ends).filter(|_| rest[0] != b'.' || length > 1);
     (length.max(1), suffix.map_or(0, |suffix| suffix.len()))
 }
@@ -101,7 +116,8 @@ mod tests {
             ("x /* a\nb */ = x0f", "x     \n     = x0f"),
             ("\u{feff}x = 1.f;\r\n", "   x = 1. ; \n"),
             ("h = Time.deltaTime", "h =      deltaTime"),
-            ("takes a(x, v): it\nx = memory.y", "                 \nx = memory_y"),
+            ("takes a(x, v): it\nx = memory.y", "takes a(x, v)    \nx = memory_y"),
+            ("x = 4e-15|2e-6 * v", "x = 4e-15      * v"),
             (".", "."),
             ("1e", "1e"),
             ("/*", "  "),

@@ -2,11 +2,13 @@
 
 use std::ops::Range;
 
+pub(crate) use functions::SHARED_STEPS;
+use functions::end_of;
+
+use super::method::{Function as OwnFunction, Machine, Taken};
 use super::paths::{SMOOTH_DAMP, damped_velocity};
 use super::statements::Statement;
-use super::{
-    BUILT_IN, Carried, H, Line, OTHER_NAMES, STEP_NAMES, StepCall, StepText, TARGET, V, X,
-};
+use super::{BUILT_IN, Carried, H, Line, OTHER_NAMES, STEP_NAMES, StepText, TARGET, V, X};
 use crate::sim::law::expression::{Expression, Node, Scope, parse, parse_condition};
 use crate::sim::law::fault::{ExpressionFault, Parsed, Part, Remedy, fault, quoted};
 use crate::sim::law::function::Function;
@@ -14,14 +16,14 @@ use crate::sim::law::op::{OPERATOR_WORDS, Op};
 use crate::sim::law::tape::{MAX_OPERATIONS, MAX_SWITCHES, Tape};
 use crate::sim::law::token::is_name_part;
 
+mod functions;
+mod values;
+
 /// The maximum number of names of a text. It is so small that the bits of one word can represent a set of names.
 const MAX_STEP_NAMES: usize = 64;
 
 /// The deepest nesting of blocks.
 const MAX_BLOCKS: usize = 32;
-
-/// The maximum number of calls of the acceleration in a step.
-const MAX_CALLS: usize = 64;
 
 /// Names for the call of the acceleration.
 const ACCELERATION: [&str; 3] = ["a", "accel", "acceleration"];
@@ -38,8 +40,7 @@ struct Block {
     before: Values,
     /// The values at the end of the first branch, while the second branch is open.
     first: Option<Values>,
-    /// The guard of the lines around the block.
-    outside: Option<usize>,
+    is_loop: bool,
     /// Whether the block ends with the block around it, as an `else if` does.
     is_chained: bool,
 }
@@ -57,12 +58,14 @@ pub(super) struct Reader<'t> {
     values: Values,
     carried: Vec<usize>,
     blocks: Vec<Block>,
-    /// The first call of the acceleration, which makes the lines a method.
-    call: Option<Range<usize>>,
-    /// The nodes of the calls, and of their times.
-    calls: Vec<[usize; 2]>,
-    /// In a method, the node that tells whether the current lines run.
-    guard: Option<usize>,
+    /// The first call of the acceleration or setting of a body, which makes the lines a method.
+    method_at: Option<Range<usize>>,
+    inputs: Vec<Taken>,
+    takes_target: bool,
+    functions: Vec<OwnFunction>,
+    /// Whether the lines are those of a function.
+    is_function: bool,
+    reads_velocity: bool,
     /// Whether the value of `SmoothDamp` is the velocity that it leaves.
     damps_velocity: bool,
 }
@@ -93,7 +96,7 @@ fn first_call(text: &str) -> Option<Range<usize>> {
 
 impl Scope for Reader<'_> {
     fn input(&self, name: &str) -> Option<usize> {
-        let index = self.index(name).filter(|index| *index != TARGET || self.call.is_none())?;
+        let index = self.index(name).filter(|index| self.may_read(*index))?;
         (self.is_carried[index] || self.values[index].is_some()).then_some(index)
     }
 
@@ -102,8 +105,21 @@ impl Scope for Reader<'_> {
     }
 
     fn why_not(&self, name: &str) -> Option<String> {
-        let is_target = self.call.is_some() && self.index(name) == Some(TARGET);
+        let is_target = self.index(name).is_some_and(|index| !self.may_read(index));
         is_target.then(|| "a method moves by `a(x, v)`, and has no target".to_owned())
+    }
+
+    fn constant(&self, name: &str) -> Option<f64> {
+        match name {
+            "pi" => Some(std::f64::consts::PI),
+            "nan" => Some(f64::NAN),
+            _ => None,
+        }
+    }
+
+    fn own_function(&self, name: &str) -> Option<(usize, Vec<bool>)> {
+        let index = self.functions.iter().rposition(|function| function.name == name)?;
+        Some((index, self.functions[index].inputs.clone()))
     }
 
     fn is_acceleration(&self, name: &str) -> bool {
@@ -126,42 +142,92 @@ impl Scope for Reader<'_> {
 }
 
 impl<'t> Reader<'t> {
-    /// Returns a reader that already knows the names that the text assigns.
-    pub(super) fn new(text: &'t str, statements: &[Statement]) -> Parsed<Self> {
-        let mut reader = Reader {
+    /// Reads a text.
+    pub(super) fn read(text: &'t str, all: &[Statement]) -> Parsed<StepText> {
+        let mut reader = Self::new(text, first_call(text), Vec::new());
+        reader.names = BUILT_IN.map(String::from).to_vec();
+        reader.is_carried = vec![true; BUILT_IN.len()];
+        reader.starts = vec![0.0; BUILT_IN.len()];
+        reader.values = vec![None; BUILT_IN.len()];
+        reader.carried = vec![X, V];
+        for statement in all {
+            if let Statement::Takes(input) = statement {
+                reader.take(input.clone())?;
+            }
+        }
+        reader.read_all(all)?;
+        reader.finish()
+    }
+
+    fn new(text: &'t str, method_at: Option<Range<usize>>, functions: Vec<OwnFunction>) -> Self {
+        Reader {
             text,
-            names: BUILT_IN.map(String::from).to_vec(),
-            is_carried: vec![true; BUILT_IN.len()],
-            starts: vec![0.0; BUILT_IN.len()],
+            names: Vec::new(),
+            is_carried: Vec::new(),
+            starts: Vec::new(),
             lines: Vec::new(),
             nodes: Expression::default(),
-            values: vec![None; BUILT_IN.len()],
-            carried: vec![X, V],
+            values: Vec::new(),
+            carried: Vec::new(),
             blocks: Vec::new(),
-            call: first_call(text),
-            calls: Vec::new(),
-            guard: None,
+            method_at,
+            inputs: Vec::new(),
+            takes_target: false,
+            functions,
+            is_function: false,
+            reads_velocity: false,
             damps_velocity: false,
-        };
-        for statement in statements.iter().cloned() {
+        }
+    }
+
+    /// Reads statements in order, after declaring all names that they assign.
+    fn read_all(&mut self, all: &[Statement]) -> Parsed<()> {
+        let mut at = 0;
+        while let Some(statement) = all.get(at) {
             match statement {
                 Statement::Assign { name, is_declared, value, .. } => {
-                    reader.declare(name, !is_declared, false)?;
-                    if let Some(velocity) = damped_velocity(text, &value) {
-                        reader.declare(velocity, true, false)?;
-                        if reader.index(DAMPED_PLACE).is_none() {
-                            reader.add_name(DAMPED_PLACE, false);
+                    let is_carried = !is_declared && !self.is_function;
+                    self.declare(name.clone(), is_carried, false)?;
+                    if let Some(velocity) = damped_velocity(self.text, value) {
+                        self.declare(velocity, is_carried, false)?;
+                        if self.index(DAMPED_PLACE).is_none() {
+                            self.add_name(DAMPED_PLACE, false);
                         }
                     }
                 }
-                Statement::Memory { name, .. } => reader.declare(name, true, true)?,
+                Statement::Memory { name, .. } => self.declare(name.clone(), true, true)?,
+                Statement::Function { .. } => at = end_of(all, at),
                 _ => {}
             }
+            at += 1;
         }
-        Ok(reader)
+        let mut at = 0;
+        while let Some(statement) = all.get(at) {
+            if let Statement::Function { name, inputs } = statement {
+                let end = end_of(all, at);
+                self.read_function(name.clone(), inputs.clone(), all, at + 1..end)?;
+                at = end;
+            } else {
+                self.read_statement(statement.clone())?;
+            }
+            at += 1;
+        }
+        Ok(())
+    }
+
+    fn is_method(&self) -> bool {
+        self.method_at.is_some()
+    }
+
+    /// Whether the lines may read an input that has a value.
+    fn may_read(&self, index: usize) -> bool {
+        self.is_function || index != TARGET || !self.is_method() || self.takes_target
     }
 
     fn index(&self, name: &str) -> Option<usize> {
+        if self.is_function {
+            return self.names.iter().position(|known| known == name);
+        }
         if STEP_NAMES.contains(&name) {
             return Some(H);
         }
@@ -188,7 +254,7 @@ impl<'t> Reader<'t> {
             return fault(span, what, "give it another name");
         }
         match self.index(name) {
-            Some(TARGET) => {
+            Some(TARGET) if !self.is_function => {
                 let remedy = "give the number another name, such as `goal`";
                 return fault(
                     span,
@@ -218,7 +284,8 @@ impl<'t> Reader<'t> {
         match statement {
             Statement::Assign { name, joins, value, is_declared } => {
                 // A game declares the initial value of `x` or `v` above the lines of its frames.
-                let index = self.index(&self.text[name.clone()]).filter(|index| *index <= V);
+                let index = self.index(&self.text[name.clone()]);
+                let index = index.filter(|index| *index <= V && !self.is_function);
                 let is_first = index.is_some_and(|index| self.values[index].is_none());
                 let start = match is_declared && is_first && self.blocks.is_empty() {
                     true => self
@@ -249,15 +316,37 @@ impl<'t> Reader<'t> {
                 Ok(())
             }
             Statement::If(condition) => self.open(condition, false),
+            Statement::While(word, condition) => {
+                self.expect_method(&word, "write the lines of one step, which has no loops")?;
+                self.open_loop(condition)
+            }
+            Statement::Return { word, value } => {
+                if !self.is_function {
+                    let what = "`return` cannot stand in a step";
+                    return fault(word, what, "assign `x` and `v` in its place, or write `stay`");
+                }
+                let value = self.expression(value, false)?;
+                self.note_reads(&value);
+                self.lines.push(Line::Return(value));
+                Ok(())
+            }
+            Statement::Stop(word, fails) => {
+                self.expect_method(&word, "write the lines in an `if` of the opposite")?;
+                if self.is_function {
+                    return fault(word, "a function cannot end the step", "return `nan`");
+                }
+                self.lines.push(Line::Stop { fails });
+                Ok(())
+            }
+            Statement::Takes(_) | Statement::Function { .. } => Ok(()),
+            Statement::Use(name) => self.use_shared(name),
             Statement::Else(condition, brace) => {
-                let Some(block) = self.blocks.last_mut().filter(|block| block.first.is_none())
+                let open = self.blocks.last_mut();
+                let Some(block) = open.filter(|block| block.first.is_none() && !block.is_loop)
                 else {
                     return fault(brace, "`else` follows no block of an `if`", "remove it");
                 };
                 block.first = Some(std::mem::replace(&mut self.values, block.before.clone()));
-                let (taken, outside) = (block.condition, block.outside);
-                let not = self.push(Node::new(Op::Not, &[taken]), &brace);
-                self.guard = Some(self.nested_guard(outside, not, &brace));
                 self.lines.push(Line::Else);
                 match condition {
                     Some(condition) => self.open(condition, true),
@@ -285,7 +374,7 @@ impl<'t> Reader<'t> {
         let in_text = |found: ExpressionFault| {
             let at = found.span.start + span.start..found.span.end + span.start;
             let is_call = self.text[at.end..].trim_start().starts_with('(');
-            let known = if self.call.is_some() { "x, v or h" } else { "x, v, h or target" };
+            let known = if self.is_method() { "x, v or h" } else { "x, v, h or target" };
             let remedy = match found.remedy {
                 Remedy::Name { written, .. } if !is_call => Remedy::Words(format!(
                     "write {known}, or give it a value before: `let {} = 1`",
@@ -300,7 +389,8 @@ impl<'t> Reader<'t> {
 
     /// Returns the value of an expression made only of numbers.
     fn constant_value(&self, expression: &Expression, span: Range<usize>) -> Parsed<f64> {
-        let reads = expression.nodes.iter().any(|node| matches!(node.op, Op::Input | Op::Call));
+        let reads = |node: &Node| matches!(node.op, Op::Input | Op::Call | Op::Apply);
+        let reads = expression.nodes.iter().any(reads);
         let tape = || Tape::new(0, |_| false, &[(Part::Energy, expression)]).ok();
         let value = (!reads).then(tape).flatten().map(|tape| {
             let mut slots = vec![0.0; tape.slots];
@@ -353,7 +443,16 @@ impl<'t> Reader<'t> {
         if nodes.any(|node| matches!(node.op, Op::Divide) && is_0(node.arguments()[1])) {
             return fault(value, "it divides by 0", "divide by another number");
         }
-        let found = self.splice(&expression, value.start);
+        if self.inputs.iter().any(|taken| taken.name == index && !self.is_function) {
+            return fault(name, "a step cannot change its setting", "give it another name");
+        }
+        let found = match self.is_method() {
+            true => {
+                self.note_reads(&expression);
+                0
+            }
+            false => self.splice(&expression, value.start),
+        };
         let found = match joins {
             "" => found,
             joins => {
@@ -361,6 +460,12 @@ impl<'t> Reader<'t> {
                     let written = quoted(&self.names[index]);
                     let what = format!("`{written}` has no value yet");
                     return fault(name, what, format!("write `let {written} = 0` before"));
+                }
+                if self.is_method() {
+                    self.note_read(index);
+                    self.values[index] = Some(0);
+                    self.lines.push(Line::Assign { name: index, joins, value: expression });
+                    return Ok(());
                 }
                 let op = match joins {
                     "+" => Op::Add,
@@ -383,128 +488,33 @@ impl<'t> Reader<'t> {
             return fault(condition, what, "use fewer");
         }
         let expression = self.expression(condition.clone(), true)?;
-        let node = self.splice(&expression, condition.start);
-        let (before, outside) = (self.values.clone(), self.guard);
-        self.guard = Some(self.nested_guard(outside, node, &condition));
-        self.blocks.push(Block { condition: node, before, first: None, outside, is_chained });
+        let node = match self.is_method() {
+            true => {
+                self.note_reads(&expression);
+                0
+            }
+            false => self.splice(&expression, condition.start),
+        };
+        let before = self.values.clone();
+        self.blocks.push(Block {
+            condition: node,
+            before,
+            first: None,
+            is_loop: false,
+            is_chained,
+        });
         self.lines.push(Line::If(expression));
         Ok(())
     }
 
-    /// Returns the node whose value is whether the lines within a block of this condition run.
-    fn nested_guard(
-        &mut self,
-        outside: Option<usize>,
-        condition: usize,
-        at: &Range<usize>,
-    ) -> usize {
-        match outside {
-            Some(outside) => self.push(Node::new(Op::And, &[outside, condition]), at),
-            None => condition,
+    fn open_loop(&mut self, condition: Range<usize>) -> Parsed<()> {
+        self.open(condition, false)?;
+        if let (Some(block), Some(Line::If(condition))) = (self.blocks.last_mut(), self.lines.pop())
+        {
+            block.is_loop = true;
+            self.lines.push(Line::While(condition));
         }
-    }
-
-    /// Closes a block. The values after the block are those of the branch taken.
-    fn close(&mut self, block: Block, brace: &Range<usize>) {
-        let Block { condition, before, first, outside, is_chained: _ } = block;
-        self.guard = outside;
-        let second = match first.is_some() {
-            true => std::mem::take(&mut self.values),
-            false => before.clone(),
-        };
-        let first = first.unwrap_or_else(|| std::mem::take(&mut self.values));
-        self.values = before;
-        for index in 0..self.names.len() {
-            let branches = [first[index], second[index]];
-            if branches[0] == branches[1] {
-                self.values[index] = branches[0];
-                continue;
-            }
-            // A number that only one branch declares does not exist after that branch.
-            if branches.contains(&None) && !self.is_carried[index] {
-                continue;
-            }
-            let [a, b] =
-                branches.map(|branch| branch.unwrap_or_else(|| self.before_step(index, brace)));
-            self.values[index] = Some(self.push(Node::new(Op::If, &[condition, a, b]), brace));
-        }
-    }
-
-    /// Returns the node of a name's current number.
-    fn value(&mut self, index: usize, at: &Range<usize>) -> usize {
-        self.values[index].unwrap_or_else(|| self.before_step(index, at))
-    }
-
-    /// Returns the node of a name's number before the step.
-    fn before_step(&mut self, index: usize, at: &Range<usize>) -> usize {
-        if index >= BUILT_IN.len() && !self.carried.contains(&index) {
-            self.carried.push(index);
-        }
-        self.push(Node::input(index), at)
-    }
-
-    fn push(&mut self, node: Node, at: &Range<usize>) -> usize {
-        self.nodes.nodes.push(node);
-        self.nodes.spans.push(at.clone());
-        self.nodes.nodes.len() - 1
-    }
-
-    /// Adds the operations of an expression, which read the current numbers of the names. Returns the node of its
-    /// value.
-    fn splice(&mut self, expression: &Expression, at: usize) -> usize {
-        let at = at..at;
-        let mut read: Vec<(usize, usize)> = Vec::new();
-        for node in expression.nodes.iter().filter(|node| node.op == Op::Input) {
-            if !read.iter().any(|(name, _)| *name == node.index) {
-                read.push((node.index, self.value(node.index, &at)));
-            }
-        }
-        let (before, tables) = (self.nodes.nodes.len(), self.nodes.tables.len());
-        let zero = Node::new(Op::Number, &[]);
-        for (node, span) in expression.nodes.iter().zip(&expression.spans) {
-            let span = at.start + span.start..at.start + span.end;
-            let mut node = node.after(before);
-            if node.op.is_table() {
-                node.index += tables;
-            }
-            // A zero is a placeholder for an input, because operations read the name's current number instead.
-            self.push(if node.op == Op::Input { zero } else { node }, &span);
-        }
-        self.nodes.tables.extend(expression.tables.iter().cloned());
-        let number_of = |node: usize| {
-            let inner = &expression.nodes[node - before];
-            let found = read.iter().find(|(name, _)| inner.op == Op::Input && inner.index == *name);
-            found.map_or(node, |(_, number)| *number)
-        };
-        for node in before..self.nodes.nodes.len() {
-            let new = self.nodes.nodes[node].reading(number_of);
-            self.nodes.nodes[node] =
-                if new.op == Op::Call { self.guarded_call(&new, node) } else { new };
-        }
-        number_of(self.nodes.nodes.len() - 1)
-    }
-
-    /// Returns the node of a call of the acceleration. The call is guarded if the current lines are in a block.
-    fn guarded_call(&mut self, call: &Node, node: usize) -> Node {
-        let &[x, v, ref time @ ..] = call.arguments() else { return *call };
-        let index = self.calls.len();
-        self.calls.push([node, time.first().copied().unwrap_or(x)]);
-        let operands = [Some(x), Some(v), self.guard].into_iter().flatten().collect::<Vec<_>>();
-        let mut made = Node::new(Op::Call, &operands);
-        made.index = index;
-        made
-    }
-
-    fn check_length(&self, at: Range<usize>) -> Parsed<()> {
-        if self.calls.len() > MAX_CALLS {
-            let what = format!("the lines call the acceleration more than {MAX_CALLS} times");
-            return fault(at, what, "write fewer");
-        }
-        if self.nodes.nodes.len() <= 2 * MAX_OPERATIONS {
-            return Ok(());
-        }
-        let what = format!("the lines have more than {MAX_OPERATIONS} operations");
-        fault(at, what, "write fewer")
+        Ok(())
     }
 
     /// Returns the parsed lines, after all statements.
@@ -522,10 +532,9 @@ impl<'t> Reader<'t> {
         }
         let mut carried = self.carried.clone();
         carried.sort_unstable();
-        let ends: Vec<usize> = carried.iter().map(|index| self.value(*index, &last)).collect();
-        // The calls come first, in the order written, including calls without effect.
-        let asked = [0, 1].map(|of| self.calls.iter().map(move |call| call[of]));
-        let outputs: Vec<usize> = asked.into_iter().flatten().chain(ends).collect();
+        let is_rule = !self.is_method();
+        let ends = carried.iter().filter(|_| is_rule);
+        let outputs: Vec<usize> = ends.map(|index| self.value(*index, &last)).collect();
         let whole = |node: usize| Expression {
             nodes: self.nodes.nodes[..=node].to_vec(),
             spans: self.nodes.spans[..=node].to_vec(),
@@ -533,25 +542,40 @@ impl<'t> Reader<'t> {
         };
         let expressions: Vec<Expression> = outputs.into_iter().map(whole).collect();
         let parts: Vec<_> = expressions.iter().map(|of| (Part::Energy, of)).collect();
-        let mut tape = Tape::new(self.names.len(), |input| input == H, &parts).or_else(|long| {
-            let (noun, most) = match long.are_switches {
-                true => ("corners and jumps", MAX_SWITCHES),
-                false => ("operations", MAX_OPERATIONS),
-            };
-            fault(last, format!("the lines have more than {most} {noun}"), "write fewer")
+        let tape = Tape::new(self.names.len(), |input| input == H, &parts).or_else(|long| {
+            match long.are_switches {
+                true => too_long(last.clone(), "corners and jumps", MAX_SWITCHES),
+                false => too_long(last.clone(), "operations", MAX_OPERATIONS),
+            }
         })?;
+        let machine = match is_rule {
+            true => Some(Machine::default()),
+            false => Machine::new(self.names.len(), &self.lines, &self.functions),
+        };
+        let machine = machine.map_or_else(|| too_long(last, "operations", MAX_OPERATIONS), Ok)?;
         let named = |input: usize| Carried {
             name: self.names[input].clone(),
             start: self.starts[input],
             input,
         };
         let carried = carried.into_iter().map(named).collect();
-        let times = tape.outputs.drain(..2 * self.calls.len()).skip(self.calls.len()).collect();
-        let Reader { names, lines, call, .. } = self;
-        let (source, calls) = (String::new(), Vec::new());
-        let left_out = None;
-        let mut text = StepText { source, names, lines, carried, tape, call, calls, left_out };
-        text.calls = StepCall::all(&text, times);
-        Ok(text)
+        let Reader { names, lines, method_at, inputs, functions, reads_velocity, .. } = self;
+        Ok(StepText {
+            source: String::new(),
+            names,
+            lines,
+            carried,
+            tape,
+            method_at,
+            inputs,
+            functions,
+            reads_velocity,
+            machine,
+            left_out: None,
+        })
     }
+}
+
+fn too_long<T>(at: Range<usize>, noun: &str, most: usize) -> Parsed<T> {
+    fault(at, format!("the lines have more than {most} {noun}"), "write fewer")
 }

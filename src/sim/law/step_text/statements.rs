@@ -16,33 +16,44 @@ pub(super) enum Statement {
     If(Range<usize>),
     /// `} else {`, and the condition in `} else if condition {`.
     Else(Option<Range<usize>>, Range<usize>),
+    /// `while condition {`.
+    While(Range<usize>, Range<usize>),
     /// `}`.
     End(Range<usize>),
+    /// `takes name`, with the arguments of a function.
+    Takes(Range<usize>),
+    /// `use name`.
+    Use(Range<usize>),
+    /// `fn name(inputs) {`.
+    Function { name: Range<usize>, inputs: Range<usize> },
+    /// `return value`.
+    Return { word: Range<usize>, value: Range<usize> },
+    /// `fail` or `stay`, and whether the step fails.
+    Stop(Range<usize>, bool),
+}
+
+impl Statement {
+    /// The number of blocks that the statement opens, less those that it closes.
+    pub(super) fn depth(&self) -> i32 {
+        match self {
+            Self::If(_) | Self::While(..) | Self::Function { .. } => 1,
+            Self::End(_) => -1,
+            _ => 0,
+        }
+    }
 }
 
 /// Words that declare a number in some language.
-const DECLARERS: [&str; 10] =
-    ["let", "var", "const", "float", "double", "auto", "local", "mut", "final", "static"];
+const DECLARERS: [&str; 11] =
+    ["let", "var", "const", "float", "double", "auto", "local", "mut", "final", "static", "count"];
 
 /// Words that begin a line which no step can have, each with a remedy.
-const REFUSED: [(&str, &str); 8] = [
-    ("while", "write the lines of one step, which has no loops"),
-    ("for", "write the lines of one step, which has no loops"),
-    ("return", "assign `x` and `v` in its place"),
-    ("fn", "write the lines inside the function"),
+const REFUSED: [(&str, &str); 5] = [
+    ("for", "write a loop as `while n < 4 { n += 1 }`, or the lines of one step"),
     ("func", "write the lines inside the function"),
     ("def", "write the lines inside the function"),
     ("void", "write the lines inside the function"),
     ("function", "write the lines inside the function"),
-];
-
-/// Words that begin such a line in `assets/methods`, unless an operator follows the word. Each has a remedy.
-const REFUSED_ALONE: [(&str, &str); 5] = [
-    ("takes", "a method takes `a(x, v)` alone"),
-    ("use", "write the lines inside the functions"),
-    ("count", "write the lines of one step, which has no loops"),
-    ("fail", "leave the numbers as they come out"),
-    ("stay", "write the lines in an `if` of the opposite"),
 ];
 
 /// The assignment operators, each with the operator that combines the value with the previous number.
@@ -135,6 +146,26 @@ impl Reader<'_> {
                     _ => Statement::Else(Some(self.condition(word.clone())?), word),
                 }))
             }
+            (_, "while") => {
+                let word = self.name();
+                Ok(Some(Statement::While(word.clone(), self.condition(word)?)))
+            }
+            (_, "return") => {
+                let word = self.name();
+                self.at = word.end;
+                let value = self.at..self.end();
+                self.at = value.end;
+                Ok(Some(Statement::Return { word, value }))
+            }
+            (_, "fn") => self.function().map(Some),
+            (_, word @ ("takes" | "use")) if self.is_followed_by_name() => {
+                let is_input = word == "takes";
+                self.at = self.name().end;
+                let line = self.rest().find(['\n', ';']).unwrap_or(self.rest().len());
+                let named = self.at..self.at + line;
+                self.at = named.end;
+                Ok(Some(if is_input { Statement::Takes(named) } else { Statement::Use(named) }))
+            }
             (_, "else") => fault(
                 self.name(),
                 "`else` follows no block",
@@ -148,7 +179,33 @@ impl Reader<'_> {
         self.worded.last() == Some(&true)
     }
 
-    /// Returns the condition after this `if`, up to the brace or the `then` that opens its block.
+    /// Whether a name follows the next name on its line.
+    fn is_followed_by_name(&self) -> bool {
+        let after = self.text[self.name().end..].trim_start_matches([' ', '\t']);
+        after.starts_with(is_name_start)
+    }
+
+    /// Reads the first line of a function.
+    fn function(&mut self) -> Parsed<Statement> {
+        let word = self.name();
+        self.at = word.end;
+        self.skip(|c| c == ' ' || c == '\t');
+        let name = self.name();
+        self.at = name.end;
+        // The inputs end at the parenthesis before the brace.
+        let head = self.rest().find(['{', '}', ';']).unwrap_or(self.rest().len());
+        let inputs = self.rest()[..head].trim_end();
+        let inside = inputs.strip_prefix('(').and_then(|rest| rest.strip_suffix(')'));
+        let Some(inside) = inside.filter(|_| !name.is_empty()) else {
+            return fault(word, "the function has no name or no inputs", "write `fn f(x, v) {`");
+        };
+        let inputs = self.at + 1..self.at + 1 + inside.len();
+        self.at += head;
+        self.expect_open_brace(word)?;
+        Ok(Statement::Function { name, inputs })
+    }
+
+    /// Returns the condition after this `if` or `while`, up to the brace or the `then` that opens its block.
     fn condition(&mut self, word: Range<usize>) -> Parsed<Range<usize>> {
         self.at = word.end;
         let line = self.rest().find(['{', ';', '}']).unwrap_or(self.rest().len());
@@ -242,10 +299,8 @@ impl Reader<'_> {
                     format!("`{written}(…)` is a call"),
                     "write an assignment, such as `x += v * dt`",
                 ),
-                _ if let Some((_, remedy)) =
-                    REFUSED_ALONE.iter().find(|(word, _)| *word == written) =>
-                {
-                    return fault(name, format!("`{written}` cannot stand in a step"), *remedy);
+                _ if ["fail", "stay"].contains(&&*written) => {
+                    return Ok(Statement::Stop(name, written == "fail"));
                 }
                 _ => (
                     format!("`{written}` is not assigned"),
@@ -294,6 +349,12 @@ mod tests {
             }
             Statement::Memory { name, value } => format!("memory {} = {}", of(name), of(value)),
             Statement::If(condition) => format!("if {}", of(condition)),
+            Statement::While(_, condition) => format!("while {}", of(condition)),
+            Statement::Takes(input) => format!("takes {}", of(input)),
+            Statement::Use(name) => format!("use {}", of(name)),
+            Statement::Function { name, inputs } => format!("fn {} {}", of(name), of(inputs)),
+            Statement::Return { value, .. } => format!("return {}", of(value)),
+            Statement::Stop(word, _) => of(word),
             Statement::Else(condition, _) => format!("else {}", condition.map_or("".into(), of)),
             Statement::End(_) => "end".into(),
         };
@@ -320,6 +381,10 @@ mod tests {
             ]
         );
         assert_eq!(read("const float a := 1\n\n;;float b = 2"), ["let a = 1", "let b = 2"]);
+        let text = "takes whole n\nuse solve\nfn f(a(x, v), x) {\n  while x < 1 {\n stay }\n return a(x,\n 1) }; fail";
+        let found = ["takes whole n", "use solve", "fn f a(x, v), x", "while x < 1", "stay", "end"];
+        assert_eq!(read(text)[..6], found);
+        assert_eq!(read(text)[6..], ["return a(x,\n 1)", "end", "fail"]);
         assert_eq!(read(" \n;"), [""; 0]);
     }
 
@@ -330,14 +395,16 @@ mod tests {
             ("x == 1", 0..6),
             ("x = 1; pos.x += 1", 7..17),
             ("update(x)", 0..9),
-            ("while x < 1 { x = 1 }", 0..5),
+            ("for x < 1 { x = 1 }", 0..3),
+            ("while x < 1; x = 1", 0..5),
+            ("fn f { x = 1 }", 0..2),
             ("if x < 0 x = 1", 0..2),
             ("if x < 0; x = 1", 0..2),
             ("else { x = 1 }", 0..4),
             ("x = 1 { v = 1 }", 6..7),
             ("½ = 1", 0..2),
             ("let", 0..3),
-            ("return x", 0..6),
+            ("def x", 0..3),
             ("3", 0..1),
             ("if x > 1 { x = 1 } else x = 2", 24..24),
         ] {
