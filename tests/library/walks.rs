@@ -82,6 +82,10 @@ fn step(dice: &mut Dice, studio: &mut Studio) -> String {
     };
     let name = format!("{command:?}");
     studio.apply(command);
+    // A stop of the guide would refuse every walk in time.
+    if studio.viewer.is_asked() {
+        studio.apply(ViewCommand::Predict(0));
+    }
     name
 }
 

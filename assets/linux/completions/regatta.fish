@@ -769,6 +769,18 @@ hitch-100ms\t''
 alt-tab-5s\t''
 spiral\t''
 jitter\t''"
+complete -c regatta -n "__fish_regatta_using_subcommand loop" -l frame-column -d 'The column of the times of frames, by name or number' -r
+complete -c regatta -n "__fish_regatta_using_subcommand loop" -l clock-column -d 'The column of a running clock, in place of times' -r
+complete -c regatta -n "__fish_regatta_using_subcommand loop" -l unit -d 'The unit of the times: ns, us, ms, s or ticks [default: found]' -r
+complete -c regatta -n "__fish_regatta_using_subcommand loop" -l tick-column -d 'The column of the tick\'s number [default: tick]' -r
+complete -c regatta -n "__fish_regatta_using_subcommand loop" -l t-column -d 'The column of the time [default: t]' -r
+complete -c regatta -n "__fish_regatta_using_subcommand loop" -l x-column -d 'The column of the coordinate in metres [default: x]' -r
+complete -c regatta -n "__fish_regatta_using_subcommand loop" -l v-column -d 'The column of the velocity in metres per second [default: v]' -r
+complete -c regatta -n "__fish_regatta_using_subcommand loop" -l start -d 'Take the rows from this time on, counted from the first row' -r
+complete -c regatta -n "__fish_regatta_using_subcommand loop" -l end -d 'Take the rows before this time, counted from the first row' -r
+complete -c regatta -n "__fish_regatta_using_subcommand loop" -l rows -d 'Take these rows, such as 3001..8447' -r
+complete -c regatta -n "__fish_regatta_using_subcommand loop" -l where -d 'Take the rows whose cell in COLUMN is VALUE' -r
+complete -c regatta -n "__fish_regatta_using_subcommand loop" -l separator -d 'The separator of the cells: a character, tab or space [default: found]' -r
 complete -c regatta -n "__fish_regatta_using_subcommand loop" -l tick-hz -d 'Ticks per second [default: the scene\'s]' -r
 complete -c regatta -n "__fish_regatta_using_subcommand loop" -l step -d 'The length of a tick, in place of --tick-hz' -r
 complete -c regatta -n "__fish_regatta_using_subcommand loop" -l display-hz -d 'The refresh rate [default: the trace\'s]' -r
@@ -860,9 +872,10 @@ complete -c regatta -n "__fish_regatta_using_subcommand loop" -l out -d 'The fil
 complete -c regatta -n "__fish_regatta_using_subcommand loop" -l frame-rows -d 'Write a line of CSV for each frame into FILE' -r -F
 complete -c regatta -n "__fish_regatta_using_subcommand loop" -l plot -d 'Draw the motion of each loop as PNG into FILE' -r -F
 complete -c regatta -n "__fish_regatta_using_subcommand loop" -l all -d 'Compare all policies'
+complete -c regatta -n "__fish_regatta_using_subcommand loop" -l no-header -d 'The first line is already a row'
 complete -c regatta -n "__fish_regatta_using_subcommand loop" -l force -d 'Replace the files that are there'
 complete -c regatta -n "__fish_regatta_using_subcommand loop" -s h -l help -d 'Print help (see more with \'--help\')'
-complete -c regatta -n "__fish_regatta_using_subcommand identify" -l tick-hz -d 'Ticks per second of the game that wrote it' -r
+complete -c regatta -n "__fish_regatta_using_subcommand identify" -l tick-hz -d 'Ticks per second of the game that wrote it [default: by the times]' -r
 complete -c regatta -n "__fish_regatta_using_subcommand identify" -l step -d 'The length of a tick, in place of --tick-hz' -r
 complete -c regatta -n "__fish_regatta_using_subcommand identify" -l mass -d 'The mass in kg' -r
 complete -c regatta -n "__fish_regatta_using_subcommand identify" -l k -d 'The stiffness of the spring [default: fitted]' -r
@@ -871,12 +884,21 @@ complete -c regatta -n "__fish_regatta_using_subcommand identify" -l drag -d 'Th
 complete -c regatta -n "__fish_regatta_using_subcommand identify" -l rest -d 'Where the spring rests, in metres [default: 0, or fitted]' -r
 complete -c regatta -n "__fish_regatta_using_subcommand identify" -l v0 -d 'The velocity of the first row, where v was not logged [default: fitted]' -r
 complete -c regatta -n "__fish_regatta_using_subcommand identify" -l thrust -d 'A constant force in newtons' -r
-complete -c regatta -n "__fish_regatta_using_subcommand identify" -l tick-column -d 'The column of the tick\'s number' -r
-complete -c regatta -n "__fish_regatta_using_subcommand identify" -l t-column -d 'The column of the time in seconds' -r
-complete -c regatta -n "__fish_regatta_using_subcommand identify" -l x-column -d 'The column of the coordinate in metres' -r
-complete -c regatta -n "__fish_regatta_using_subcommand identify" -l v-column -d 'The column of the velocity in metres per second' -r
+complete -c regatta -n "__fish_regatta_using_subcommand identify" -l frame-column -d 'The column of the times of frames, by name or number' -r
+complete -c regatta -n "__fish_regatta_using_subcommand identify" -l clock-column -d 'The column of a running clock, in place of times' -r
+complete -c regatta -n "__fish_regatta_using_subcommand identify" -l unit -d 'The unit of the times: ns, us, ms, s or ticks [default: found]' -r
+complete -c regatta -n "__fish_regatta_using_subcommand identify" -l tick-column -d 'The column of the tick\'s number [default: tick]' -r
+complete -c regatta -n "__fish_regatta_using_subcommand identify" -l t-column -d 'The column of the time [default: t]' -r
+complete -c regatta -n "__fish_regatta_using_subcommand identify" -l x-column -d 'The column of the coordinate in metres [default: x]' -r
+complete -c regatta -n "__fish_regatta_using_subcommand identify" -l v-column -d 'The column of the velocity in metres per second [default: v]' -r
+complete -c regatta -n "__fish_regatta_using_subcommand identify" -l start -d 'Take the rows from this time on, counted from the first row' -r
+complete -c regatta -n "__fish_regatta_using_subcommand identify" -l end -d 'Take the rows before this time, counted from the first row' -r
+complete -c regatta -n "__fish_regatta_using_subcommand identify" -l rows -d 'Take these rows, such as 3001..8447' -r
+complete -c regatta -n "__fish_regatta_using_subcommand identify" -l where -d 'Take the rows whose cell in COLUMN is VALUE' -r
+complete -c regatta -n "__fish_regatta_using_subcommand identify" -l separator -d 'The separator of the cells: a character, tab or space [default: found]' -r
 complete -c regatta -n "__fish_regatta_using_subcommand identify" -l format -d 'The format: text or json' -r -f -a "text\t'Aligned columns, for people'
 json\t'An array of objects, for programs'"
+complete -c regatta -n "__fish_regatta_using_subcommand identify" -l no-header -d 'The first line is already a row'
 complete -c regatta -n "__fish_regatta_using_subcommand identify" -s h -l help -d 'Print help (see more with \'--help\')'
 complete -c regatta -n "__fish_regatta_using_subcommand port" -l frequency -d 'The frequency that a player should see' -r
 complete -c regatta -n "__fish_regatta_using_subcommand port" -l damping-ratio -d 'The damping ratio that a player should see [default: 0]' -r
@@ -924,13 +946,22 @@ complete -c regatta -n "__fish_regatta_using_subcommand port" -l drag -d 'The da
 complete -c regatta -n "__fish_regatta_using_subcommand port" -l rest -d 'Where the spring rests, in metres [default: 0, or fitted]' -r
 complete -c regatta -n "__fish_regatta_using_subcommand port" -l v0 -d 'The velocity of the first row, where v was not logged [default: fitted]' -r
 complete -c regatta -n "__fish_regatta_using_subcommand port" -l thrust -d 'A constant force in newtons' -r
-complete -c regatta -n "__fish_regatta_using_subcommand port" -l tick-column -d 'The column of the tick\'s number' -r
-complete -c regatta -n "__fish_regatta_using_subcommand port" -l t-column -d 'The column of the time in seconds' -r
-complete -c regatta -n "__fish_regatta_using_subcommand port" -l x-column -d 'The column of the coordinate in metres' -r
-complete -c regatta -n "__fish_regatta_using_subcommand port" -l v-column -d 'The column of the velocity in metres per second' -r
+complete -c regatta -n "__fish_regatta_using_subcommand port" -l frame-column -d 'The column of the times of frames, by name or number' -r
+complete -c regatta -n "__fish_regatta_using_subcommand port" -l clock-column -d 'The column of a running clock, in place of times' -r
+complete -c regatta -n "__fish_regatta_using_subcommand port" -l unit -d 'The unit of the times: ns, us, ms, s or ticks [default: found]' -r
+complete -c regatta -n "__fish_regatta_using_subcommand port" -l tick-column -d 'The column of the tick\'s number [default: tick]' -r
+complete -c regatta -n "__fish_regatta_using_subcommand port" -l t-column -d 'The column of the time [default: t]' -r
+complete -c regatta -n "__fish_regatta_using_subcommand port" -l x-column -d 'The column of the coordinate in metres [default: x]' -r
+complete -c regatta -n "__fish_regatta_using_subcommand port" -l v-column -d 'The column of the velocity in metres per second [default: v]' -r
+complete -c regatta -n "__fish_regatta_using_subcommand port" -l start -d 'Take the rows from this time on, counted from the first row' -r
+complete -c regatta -n "__fish_regatta_using_subcommand port" -l end -d 'Take the rows before this time, counted from the first row' -r
+complete -c regatta -n "__fish_regatta_using_subcommand port" -l rows -d 'Take these rows, such as 3001..8447' -r
+complete -c regatta -n "__fish_regatta_using_subcommand port" -l where -d 'Take the rows whose cell in COLUMN is VALUE' -r
+complete -c regatta -n "__fish_regatta_using_subcommand port" -l separator -d 'The separator of the cells: a character, tab or space [default: found]' -r
 complete -c regatta -n "__fish_regatta_using_subcommand port" -l format -d 'The format: text or json' -r -f -a "text\t'Aligned columns, for people'
 json\t'An array of objects, for programs'"
 complete -c regatta -n "__fish_regatta_using_subcommand port" -l drive -d 'The limits of a drive with these gains'
+complete -c regatta -n "__fish_regatta_using_subcommand port" -l no-header -d 'The first line is already a row'
 complete -c regatta -n "__fish_regatta_using_subcommand port" -s h -l help -d 'Print help (see more with \'--help\')'
 complete -c regatta -n "__fish_regatta_using_subcommand rule" -l fps -d 'The frames per second for which they were written' -r
 complete -c regatta -n "__fish_regatta_using_subcommand rule" -l dt -d 'The unit of dt in the lines: s, ms or us' -r -f -a "s\t''
@@ -946,11 +977,12 @@ complete -c regatta -n "__fish_regatta_using_subcommand rule" -l format -d 'The 
 json\t'An array of objects, for programs'"
 complete -c regatta -n "__fish_regatta_using_subcommand rule" -l scene -d 'Print a scene instead, which races the lines at half, once and twice that rate'
 complete -c regatta -n "__fish_regatta_using_subcommand rule" -s h -l help -d 'Print help (see more with \'--help\')'
-complete -c regatta -n "__fish_regatta_using_subcommand show" -l as -d 'The language: rust, c, cpp, csharp or gdscript' -r -f -a "rust\t''
+complete -c regatta -n "__fish_regatta_using_subcommand show" -l as -d 'The language: rust, c, cpp, csharp, gdscript or step' -r -f -a "rust\t''
 c\t''
 csharp\t''
 gdscript\t''
-cpp\t''"
+cpp\t''
+step\t''"
 complete -c regatta -n "__fish_regatta_using_subcommand show" -l float -d 'Use single precision, as Unity and Godot do'
 complete -c regatta -n "__fish_regatta_using_subcommand show" -s h -l help -d 'Print help (see more with \'--help\')'
 complete -c regatta -n "__fish_regatta_using_subcommand fixture" -l scene -d 'A scene or the file of one [default: harbour]' -r -f -a "harbour\t''
@@ -1048,11 +1080,23 @@ complete -c regatta -n "__fish_regatta_using_subcommand fixture" -s h -l help -d
 complete -c regatta -n "__fish_regatta_using_subcommand diff" -l ulps -d 'Numbers at most N doubles apart are equal' -r
 complete -c regatta -n "__fish_regatta_using_subcommand diff" -l relative -d 'Numbers that differ by at most this fraction of the larger are equal' -r
 complete -c regatta -n "__fish_regatta_using_subcommand diff" -l key -d 'The columns that match rows [default: tick,lane,body,coordinate]' -r
-complete -c regatta -n "__fish_regatta_using_subcommand diff" -l tick-column -d 'The column that counts ticks [default: tick]' -r
 complete -c regatta -n "__fish_regatta_using_subcommand diff" -l columns -d 'Compare these columns only' -r
 complete -c regatta -n "__fish_regatta_using_subcommand diff" -l ignore -d 'Do not compare these columns' -r
+complete -c regatta -n "__fish_regatta_using_subcommand diff" -l frame-column -d 'The column of the times of frames, by name or number' -r
+complete -c regatta -n "__fish_regatta_using_subcommand diff" -l clock-column -d 'The column of a running clock, in place of times' -r
+complete -c regatta -n "__fish_regatta_using_subcommand diff" -l unit -d 'The unit of the times: ns, us, ms, s or ticks [default: found]' -r
+complete -c regatta -n "__fish_regatta_using_subcommand diff" -l tick-column -d 'The column of the tick\'s number [default: tick]' -r
+complete -c regatta -n "__fish_regatta_using_subcommand diff" -l t-column -d 'The column of the time [default: t]' -r
+complete -c regatta -n "__fish_regatta_using_subcommand diff" -l x-column -d 'The column of the coordinate in metres [default: x]' -r
+complete -c regatta -n "__fish_regatta_using_subcommand diff" -l v-column -d 'The column of the velocity in metres per second [default: v]' -r
+complete -c regatta -n "__fish_regatta_using_subcommand diff" -l start -d 'Take the rows from this time on, counted from the first row' -r
+complete -c regatta -n "__fish_regatta_using_subcommand diff" -l end -d 'Take the rows before this time, counted from the first row' -r
+complete -c regatta -n "__fish_regatta_using_subcommand diff" -l rows -d 'Take these rows, such as 3001..8447' -r
+complete -c regatta -n "__fish_regatta_using_subcommand diff" -l where -d 'Take the rows whose cell in COLUMN is VALUE' -r
+complete -c regatta -n "__fish_regatta_using_subcommand diff" -l separator -d 'The separator of the cells: a character, tab or space [default: found]' -r
 complete -c regatta -n "__fish_regatta_using_subcommand diff" -l format -d 'The format: text or json' -r -f -a "text\t'Aligned columns, for people'
 json\t'An array of objects, for programs'"
+complete -c regatta -n "__fish_regatta_using_subcommand diff" -l no-header -d 'The first line is already a row'
 complete -c regatta -n "__fish_regatta_using_subcommand diff" -s h -l help -d 'Print help (see more with \'--help\')'
 complete -c regatta -n "__fish_regatta_using_subcommand link" -s h -l help -d 'Print help (see more with \'--help\')'
 complete -c regatta -n "__fish_regatta_using_subcommand chapter" -l out -d 'The directory for the figures and their data' -r -F
