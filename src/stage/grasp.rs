@@ -2,8 +2,8 @@
 
 use glam::DVec2;
 
-use super::Rect;
 use super::sketch::Camera;
+use super::{Rect, hull};
 use crate::look::{Look, Pull};
 use crate::run::MenuIndex;
 use crate::scene::LaneId;
@@ -134,14 +134,18 @@ impl Cell {
         self.camera.zoom_pan
     }
 
-    /// The greatest factor by which the cell may still be zoomed in: no part of its body that a hand can take grows
-    /// beyond half of the cell. Never below 1.
+    /// The greatest factor by which the cell may still be zoomed in: no part of its body that a hand can take, and no
+    /// beam of a ship, grows beyond half of the cell. Never below 1.
     pub fn max_zoom_in(&self, studio: &Studio) -> f64 {
-        let own = self.seen.iter().filter(|(whose, _)| *whose != Whose::Truth);
-        let own = own.flat_map(|(whose, q)| self.grips_of(studio, *whose, q));
-        let radius = own.map(|grip| grip.radius).fold(MIN_RADIUS, f32::max);
+        let look = Look::of(&studio.race().truth().bodies()[self.body]);
+        let half = |(whose, q): &(Whose, Vec<f64>)| {
+            let of_ship = hull::half_height(&look.outline(studio.race().t(), q), &self.camera);
+            let grips = self.grips_of(studio, *whose, q).map(|grip| grip.radius);
+            if of_ship > 0.0 { of_ship } else { grips.fold(MIN_RADIUS, f32::max) }
+        };
+        let own = self.seen.iter().filter(|(whose, _)| *whose != Whose::Truth).map(half);
         let [width, height] = self.rect.size();
-        (width.min(height) / 4.0 / f64::from(radius)).max(1.0)
+        (width.min(height) / 4.0 / f64::from(own.fold(MIN_RADIUS, f32::max))).max(1.0)
     }
 
     /// A point of the stage relative to the cell's middle: across and down, in widths and heights of the cell.
