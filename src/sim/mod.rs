@@ -46,6 +46,8 @@ pub use body_stepper::stepper;
 pub(crate) use clock::max_ticks;
 pub use clock::{Accumulator, Clock, Due, MAX_FRAME_MS, TickRateError};
 #[cfg(feature = "lab")]
+pub(crate) use numerics::golden_section;
+#[cfg(feature = "lab")]
 pub use numerics::least_squares;
 #[cfg(feature = "lab")]
 pub(crate) use own_method::MAX_OWN_ID_CHARS;

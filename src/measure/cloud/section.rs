@@ -6,7 +6,7 @@ use super::{
     Cloud, CloudAxes, CloudPicture, CloudShape, CloudStart, Density, LaneCloud, NoCloud, ShownTicks,
 };
 use crate::sim::number::significant;
-use crate::sim::{Stepper, TickRate};
+use crate::sim::{Stepper, TickRate, golden_section};
 
 /// Number of starts of a section. Each start leaves a point at each crossing.
 const STARTS: usize = 400;
@@ -160,7 +160,7 @@ fn period(body: &dyn Stepper, [q, v]: [f64; 2], seconds: f64, tick_hz: TickRate)
     let (mut before, mut here) = (on_grid.next()?, on_grid.next()?);
     for after in on_grid {
         if here.1 < before.1 && here.1 <= after.1 {
-            let found = least(&mismatch, before.0, after.0);
+            let found = golden_section(&mismatch, [before.0, after.0]);
             if mismatch(found) < ROUNDING {
                 return Some(found);
             }
@@ -168,17 +168,6 @@ fn period(body: &dyn Stepper, [q, v]: [f64; 2], seconds: f64, tick_hz: TickRate)
         (before, here) = (here, after);
     }
     None
-}
-
-/// Returns the place of the minimum of a function between two places, to rounding, if there is only one minimum between
-/// them.
-fn least(of: &impl Fn(f64) -> f64, mut from: f64, mut to: f64) -> f64 {
-    const GOLDEN: f64 = 0.618_033_988_749_894_9;
-    for _ in 0..60 {
-        let [left, right] = [to - GOLDEN * (to - from), from + GOLDEN * (to - from)];
-        if of(left) < of(right) { to = right } else { from = left }
-    }
-    (from + to) / 2.0
 }
 
 #[cfg(test)]

@@ -5,8 +5,8 @@
 
 use super::logged::Log;
 use super::swing::{FittedSwing, lag};
-use crate::sim::least_squares;
 use crate::sim::number::significant;
+use crate::sim::{golden_section, least_squares};
 
 /// A motion simpler than a swing.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -129,10 +129,8 @@ const SMALL: f64 = 1e-5;
 /// Largest correlation of successive residuals that may be noise, and fewest rows that show it.
 const NOISE_LAG: f64 = 0.5;
 const MIN_ROWS: usize = 20;
-/// Number of rates on the grid, and number of golden sections around the best.
+/// Number of rates on the grid.
 const GRID: i32 = 24;
-const SECTIONS: u32 = 48;
-const GOLDEN: f64 = 0.618_033_988_749_894_8;
 
 /// Returns the deviation of a log's coordinates from their mean, in metres.
 fn spread(log: &Log) -> f64 {
@@ -186,23 +184,8 @@ impl Model {
         if self.has_rate {
             let grid = (0..=GRID).map(|at| low + step * f64::from(at));
             let best = grid.map(|rate| (off(rate), rate)).min_by(|a, b| a.0.total_cmp(&b.0))?.1;
-            let [mut from, mut to] = [best - step, best + step];
-            let inner =
-                |from: f64, to: f64| [to - GOLDEN * (to - from), from + GOLDEN * (to - from)];
-            let [a, b] = inner(from, to);
-            let [mut at_a, mut at_b] = [off(a), off(b)];
-            for _ in 0..SECTIONS {
-                let is_left = at_a < at_b;
-                let [a, b] = inner(from, to);
-                if is_left {
-                    to = b
-                } else {
-                    from = a
-                }
-                let [a, b] = inner(from, to);
-                [at_a, at_b] = if is_left { [off(a), at_a] } else { [at_b, off(b)] };
-            }
-            rate = libm::exp((from + to) / 2.0);
+            let log_rate = golden_section(&off, [best - step, best + step]);
+            rate = libm::exp(log_rate);
             // A rate at the end of the grid is that of a simpler motion.
             if !(low..=high).contains(&libm::log(rate)) {
                 return None;
