@@ -3,7 +3,7 @@
 use super::candidates::Candidate;
 use super::effective::Effective;
 use super::logged::{Log, LoggedBody};
-use super::motion::run;
+use super::motion::{run, run_by_map};
 use crate::sim::least_squares;
 
 /// Number of Gauss-Newton iterations if the log has the initial velocity; a linear motion needs one.
@@ -12,6 +12,8 @@ const ITERATIONS: usize = 1;
 const ITERATIONS_WITHOUT_VELOCITY: usize = 2;
 /// Number of iterations if the spring is fitted too.
 const ITERATIONS_WITH_SPRING: usize = 12;
+/// The fit ends once an iteration lowers the sum of squares by less than this share.
+const SETTLED: f64 = 1e-6;
 /// Displacement for the derivatives, in units of the scale.
 const DISPLACEMENT: f64 = 1e-4;
 /// Largest residual that may be rounding in a log of single precision.
@@ -48,6 +50,15 @@ pub(super) struct Fit {
     precise: f64,
     /// Residuals of the coordinate and, if logged, of the velocity.
     residuals: Vec<Vec<f64>>,
+}
+
+/// Returns the states of a body at the log's rows, in units of the scale.
+type Run<'a> = dyn Fn(&LoggedBody, [f64; 2]) -> Option<Vec<[f64; 2]>> + 'a;
+
+/// Whether two runs of one start differ by rounding at most.
+fn are_alike(a: &[[f64; 2]], b: &[[f64; 2]]) -> bool {
+    let pairs = a.as_flattened().iter().zip(b.as_flattened());
+    pairs.into_iter().all(|(a, b)| (a - b).abs() <= EXACT * (1.0 + a.abs()))
 }
 
 /// Returns the velocity of the first row if it is logged, or else the slope to the next row.
@@ -89,42 +100,58 @@ pub(super) fn fit(
     };
     let is_fitted = [true, body.v0.is_none(), !is_spring_known, !is_spring_known, !is_rest_known];
     let fitted: Vec<usize> = (0..PARAMETERS).filter(|index| is_fitted[*index]).collect();
-    let go = |body: &LoggedBody, start: [f64; 2]| {
-        let ticks = log.rows().iter().map(|row| row.tick);
-        run(candidate, body, start, tick_s, ticks).map(|states| in_units(&states, scale))
+    let ticks = || log.rows().iter().map(|row| row.tick);
+    let stepped = |body: &LoggedBody, start: [f64; 2]| {
+        run(candidate, body, start, tick_s, ticks()).map(|states| in_units(&states, scale))
     };
-    let mut now = go(&body, start)?;
-    for _ in 0..iterations {
-        let unit = start_unit(scale, &body, tick_s);
-        let mut columns = Vec::new();
-        for index in &fitted {
-            let (mut there, mut other) = (start, body.clone());
-            displace(*index, displacement * unit[*index], &mut there, &mut other);
-            columns.push(go(&other, there)?);
-        }
-        let residual = residuals(log, &now, scale).concat();
-        let base = flat(log, &now);
-        let slope = |there: &Vec<[f64; 2]>| -> Vec<f64> {
-            let changes = flat(log, there).into_iter().zip(&base);
-            changes.map(|(there, base)| (there - base) / displacement).collect()
-        };
-        let slopes: Vec<Vec<f64>> = columns.iter().map(slope).collect();
-        let Some(change) = least_squares(&slopes, &residual) else { break };
-        let worth = |states: &[[f64; 2]]| squares(&residuals(log, states, scale));
-        let before = worth(&now);
-        let halvings = if is_spring_known { 0 } else { HALVINGS };
-        let nearer = (0..=halvings).find_map(|halving| {
-            let part = libm::scalbn(1.0, -(halving as i32));
-            let (mut there, mut other) = (start, body.clone());
-            for (index, change) in fitted.iter().zip(&change) {
-                displace(*index, part * change * unit[*index], &mut there, &mut other);
+    let mapped = |body: &LoggedBody, start: [f64; 2]| {
+        run_by_map(candidate, body, start, tick_s, ticks()).map(|states| in_units(&states, scale))
+    };
+    let refine = |go: &Run<'_>| {
+        let (mut start, mut body) = (start, body.clone());
+        let mut now = go(&body, start)?;
+        for _ in 0..iterations {
+            let unit = start_unit(scale, &body, tick_s);
+            let mut columns = Vec::new();
+            for index in &fitted {
+                let (mut there, mut other) = (start, body.clone());
+                displace(*index, displacement * unit[*index], &mut there, &mut other);
+                columns.push(go(&other, there)?);
             }
-            let reached = go(&other, there)?;
-            (worth(&reached) < before).then_some((there, other, reached))
-        });
-        let Some(nearer) = nearer else { break };
-        (start, body, now) = nearer;
-    }
+            let residual = residuals(log, &now, scale).concat();
+            let base = flat(log, &now);
+            let slope = |there: &Vec<[f64; 2]>| -> Vec<f64> {
+                let changes = flat(log, there).into_iter().zip(&base);
+                changes.map(|(there, base)| (there - base) / displacement).collect()
+            };
+            let slopes: Vec<Vec<f64>> = columns.iter().map(slope).collect();
+            let Some(change) = least_squares(&slopes, &residual) else { break };
+            let worth = |states: &[[f64; 2]]| squares(&residuals(log, states, scale));
+            let before = worth(&now);
+            let halvings = if is_spring_known { 0 } else { HALVINGS };
+            let nearer = (0..=halvings).find_map(|halving| {
+                let part = libm::scalbn(1.0, -(halving as i32));
+                let (mut there, mut other) = (start, body.clone());
+                for (index, change) in fitted.iter().zip(&change) {
+                    displace(*index, part * change * unit[*index], &mut there, &mut other);
+                }
+                let reached = go(&other, there)?;
+                (worth(&reached) < before).then_some((there, other, reached))
+            });
+            let Some(nearer) = nearer else { break };
+            (start, body, now) = nearer;
+            if worth(&now) > (1.0 - SETTLED) * before {
+                break;
+            }
+        }
+        Some((start, body, now))
+    };
+    // Most candidates are linear, so that the map of a tick stands for their steps.
+    let by_map = refine(&mapped).and_then(|(start, body, now)| {
+        let steps = stepped(&body, start)?;
+        are_alike(&steps, &now).then_some((start, body, steps))
+    });
+    let (start, body, now) = by_map.or_else(|| refine(&stepped))?;
     let residuals = residuals(log, &now, scale);
     let is_finite = residuals.iter().flatten().all(|r| r.is_finite());
     let precise = match (log.is_double(), candidate.method.is_engine()) {
