@@ -43,6 +43,9 @@ For each engine, port finds the settings with which its ticks show the wish:
 
 Springs of user interfaces, with the version that tests compare each with: {dialects}.
 
+A library that steps by frames is read and set as it moves at --tick-hz frames per second. Each ends a
+motion by its own rule of rest: --ends prints when, and the part of the way that is left, over a way of 1.
+
 The frequency is that of the spring without its damping; with a damping ratio d it swings √(1 - d²)
 times as fast. The word is
 
@@ -62,7 +65,8 @@ Examples:
   regatta port --from spring.csv --tick-hz 60 --format json
   regatta port --from lerp:0.1@60fps
   regatta port --from swiftui:duration=0.5,bounce=0.3 --to compose,css
-  regatta port --from react-spring:tension=170,friction=26 --to ui --tick-hz 30";
+  regatta port --from react-spring:tension=170,friction=26 --to ui --tick-hz 30
+  regatta port --from react-native:tension=50,friction=1 --ends";
 
 /// Print settings that make a spring move the same in every engine
 #[derive(Debug, Args)]
@@ -115,6 +119,10 @@ pub(super) struct PortArgs {
     #[arg(long, value_name = "ID,…|all|ui", value_delimiter = ',')]
     #[arg(value_parser = TARGET, hide_possible_values = true)]
     to: Vec<Target>,
+
+    /// When each user interface ends the motion, and how much of the way is left then
+    #[arg(long, conflicts_with_all = ["drive", "substeps"])]
+    ends: bool,
 
     /// The limits of a drive with these gains
     #[arg(long)]
@@ -203,6 +211,7 @@ pub(super) fn run(args: &PortArgs) -> Result<(), Error> {
     });
     let from = from.transpose()?;
     let usual = match from {
+        _ if args.ends => Target::UiSprings,
         Some(WishSource::UiSpring { .. }) if !args.drive => Target::UiSprings,
         _ => Target::Engines,
     };
@@ -285,12 +294,18 @@ pub(super) fn run(args: &PortArgs) -> Result<(), Error> {
             )));
         }
     }
+    if args.ends && !setups.is_empty() {
+        return Err(Error::mistake("--ends is for user interfaces; name one, or leave --to out"));
+    }
     // A drive may have any frequency, because the question is only whether it is stable.
     match setups.is_empty() || args.drive {
         true => wish.check_numbers(tick_hz).map_err(Error::mistake)?,
         false => wish.check(tick_hz).map_err(Error::mistake)?,
     }
-    let text = if args.drive {
+    let is_table = args.ends && matches!(args.format, TableFormat::Text);
+    let text = if is_table {
+        report::ends((&wish, tick_hz), &dialects)
+    } else if args.drive {
         let limits = |setup: Setup| {
             let of = |held| drive_limits(setup, wish.joint(), held);
             let modes = setup.method.engine.map_or(&[][..], |engine| engine.modes);

@@ -333,7 +333,7 @@ fn report_text(rule: &Rule, written: &str, language: Language) -> String {
             port.outcome != PortOutcome::Unreachable && wish.damping_ratio >= 0.0
         });
         for (id, port) in told.filter(|(_, port)| port.error.is_none()) {
-            said += &format!("  {id:18}  {}\n", port.code);
+            said += &format!("  {id:24}  {}\n", port.code);
         }
     }
     if let Some(approach) = rule.approach() {

@@ -4,7 +4,7 @@ use super::command::ViewCommand;
 use super::my_spring::MySpring;
 use crate::scene::entered_tick_rate;
 use crate::sim::TickRate;
-use crate::tools::port::{Key, UiSpring, Wish};
+use crate::tools::port::{Key, USUAL_FRAME_HZ, UiSpring, Wish};
 
 /// A number of a spring, or the spring's tick rate.
 pub struct SpringField {
@@ -71,7 +71,7 @@ impl SpringField {
                 let switches =
                     dialect.keys.iter().zip(&mut told).filter(|(key, _)| key.switch.is_some());
                 switches.for_each(|(_, told)| *told = 1.0);
-                let wish = dialect.read(&told)?;
+                let wish = dialect.shown(&told, USUAL_FRAME_HZ)?;
                 let mass_kg = if dialect.has_mass() { wish.mass_kg } else { spring.mass_kg };
                 describe(spring.with_wish(&Wish { mass_kg, ..wish }))
             };

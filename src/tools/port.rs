@@ -20,7 +20,10 @@ pub use follow::{Approach, FollowerPort, followers};
 pub use friction::Friction;
 use inverse::{EvaluatedJoint, invert, min_damping};
 pub use seen::Setup;
-pub use ui_spring::{Departure, Key, Switch, UI_SPRINGS, UiSpring, UiSpringPort};
+pub use ui_spring::{
+    Departure, End, Key, SETTLED, Switch, UI_SPRINGS, USUAL_FRAME_HZ, UiSpring, UiSpringPort,
+    settled_s,
+};
 
 /// The motion that a player should see of a spring.
 #[derive(Clone, Copy, Debug, PartialEq)]

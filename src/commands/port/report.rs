@@ -10,7 +10,7 @@ use crate::table::Taken;
 use crate::tools::identify::Effective;
 use crate::tools::port::{
     Approach, Departure, DriveLimits, FollowerPort, Friction, GainRange, PortOutcome, Ported,
-    Setup, UiSpring, UiSpringPort, Wish,
+    SETTLED, Setup, UiSpring, UiSpringPort, Wish, settled_s,
 };
 
 /// Describes a motion by its frequency, its damping ratio, and how long its energy lasts.
@@ -52,12 +52,49 @@ fn wish_line(wish: &Wish, tick_hz: f64) -> String {
     format!("{hz} Hz, damping ratio {ratio}, {} kg, at {tick_hz} ticks per second\n", wish.mass_kg)
 }
 
+/// Describes from when on a motion stays near its target.
+fn settled_line(wish: &Wish) -> String {
+    let of =
+        |part: f64| format!("{} % from {} s", 100.0 * part, significant(settled_s(wish, part), 4));
+    match wish.damping_ratio > 0.0 {
+        true => format!("stays within {}\n", SETTLED.map(of).join(", ")).replacen(
+            "%",
+            "% of the way",
+            1,
+        ),
+        false => "without damping it never comes to rest\n".to_owned(),
+    }
+}
+
+/// Returns a table of when these user interfaces end the motion, and of what is left of the way then.
+pub(super) fn ends((wish, frame_hz): (&Wish, f64), dialects: &[&UiSpring]) -> String {
+    let mut said = wish_line(wish, frame_hz) + &settled_line(wish);
+    said += &format!("\n{:24}  {:>8}  left\n", "dialect", "ends");
+    for dialect in dialects {
+        let port = dialect.port(wish, frame_hz);
+        said += &match port.ends {
+            Some(end) => {
+                let [at_s, left] = [end.at_s, 100.0 * end.left.abs()];
+                let at_s = format!("{at_s:.4} s");
+                format!("{:24}  {at_s:>8}  {} % of the way\n", dialect.id, significant(left, 2))
+            }
+            None if port.departure.is_some() || port.code.is_empty() => {
+                format!("{:24}  {:>8}\n", dialect.id, "unknown")
+            }
+            None if dialect.has_end() => format!("{:24}  {:>8}\n", dialect.id, "never"),
+            None => format!("{:24}  {:>8}\n", dialect.id, "no rule"),
+        };
+    }
+    said
+}
+
 fn object((wish, tick_hz, read): (&Wish, f64, Option<&Taken>), rows: Value) -> String {
     let mut object = json!({
         "want": {
             "frequency_hz": wish.frequency_hz,
             "damping_ratio": wish.damping_ratio,
             "mass_kg": wish.mass_kg,
+            "settles_s": SETTLED.map(|part| settled_s(wish, part)),
         },
         "tick_hz": tick_hz,
     });
@@ -85,7 +122,8 @@ pub(super) fn springs(
         TableFormat::Text => {
             let engines = all.iter().map(|engine| engine_text(wish, engine));
             let dialects = dialects.map(|(it, port)| ui_spring_text(it, &port, tick_hz));
-            wish_line(wish, tick_hz) + &engines.chain(dialects).collect::<String>()
+            let settled = if dialects.len() > 0 { settled_line(wish) } else { String::new() };
+            wish_line(wish, tick_hz) + &settled + &engines.chain(dialects).collect::<String>()
         }
     }
 }
@@ -111,6 +149,7 @@ fn ui_spring_row(dialect: &UiSpring, port: &UiSpringPort) -> Value {
         "seen": port.seen.as_ref().map(seen),
         "departs": port.departure.map(departs),
         "error": port.error,
+        "ends": port.ends.map(|end| json!({ "at_s": end.at_s, "left": end.left })),
         "code": port.code,
         "source": dialect.source,
         "version": dialect.version,
@@ -128,6 +167,11 @@ fn ui_spring_text(dialect: &UiSpring, port: &UiSpringPort, frame_hz: f64) -> Str
     let mut lines = vec![format!("\n{}: {}", dialect.id, port.outcome.id())];
     lines.push(format!("  {}", set.join(", ")));
     lines.push(format!("  {}", dialect.at_frame_rates(port, frame_hz)));
+    lines.extend(port.ends.map(|end| {
+        let [at_s, left] = [(end.at_s, 4), (100.0 * end.left.abs(), 2)];
+        let [at_s, left] = [at_s, left].map(|(number, digits)| significant(number, digits));
+        format!("  ends at {at_s} s by its rule of rest, with {left} % of the way left")
+    }));
     if port.outcome != PortOutcome::Reached {
         lines.extend(port.seen.as_ref().map(|seen| format!("  a player sees: {}", sees(seen))));
     }

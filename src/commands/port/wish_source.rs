@@ -13,8 +13,8 @@ use crate::tools::port::{Approach, Friction, Key, Setup, UiSpring, Wish};
 pub(super) enum WishSource {
     /// Settings of an engine.
     Engine(EngineSettings),
-    /// Settings of a user interface. `shown` is the motion that the interface shows, and `as_given` that of a spring
-    /// with these numbers. The interface may damp less than that spring, as `note` says.
+    /// Settings of a user interface. `shown` is the motion that the interface shows at its frame rate, and `as_given`
+    /// that of a spring with these numbers, from which the interface may differ, as `note` says.
     UiSpring { shown: Wish, as_given: Wish, note: Option<String> },
     /// A velocity of which a constant part remains after each frame.
     Friction(Friction),
@@ -54,7 +54,7 @@ impl WishSource {
                 Ok(Target::Engine(method)) => {
                     Err(format!("give its settings too: {}", example(method)))
                 }
-                Ok(Target::UiSpring(dialect)) => of_ui_spring(dialect, "", mass_kg),
+                Ok(Target::UiSpring(dialect)) => of_ui_spring(dialect, "", tick_hz, mass_kg),
                 _ => Ok(WishSource::Log(written.into())),
             };
         };
@@ -108,7 +108,7 @@ impl WishSource {
                 Target::Engine(method) => {
                     of_engine(method, rest, tick_hz, mass_kg).map(WishSource::Engine)
                 }
-                Target::UiSpring(dialect) => of_ui_spring(dialect, rest, mass_kg),
+                Target::UiSpring(dialect) => of_ui_spring(dialect, rest, tick_hz, mass_kg),
                 _ => Err(format!("{head} is all of a kind; name one")),
             },
         }
@@ -140,9 +140,17 @@ fn example(method: &Method) -> String {
 }
 
 /// Returns the motion of a user interface with settings of the form `key=value,…`. A setting that is missing has the
-/// library's own value, except for the mass, which is `mass_kg`.
-fn of_ui_spring(dialect: &UiSpring, written: &str, mass_kg: f64) -> Result<WishSource, String> {
-    let usual = |key: &Key| if key.name == "mass" { mass_kg } else { key.usual };
+/// library's own value, except for a mass of 1, which is `mass_kg`.
+fn of_ui_spring(
+    dialect: &UiSpring,
+    written: &str,
+    frame_hz: f64,
+    mass_kg: f64,
+) -> Result<WishSource, String> {
+    let usual = |key: &Key| match (key.name, key.usual) {
+        ("mass", 1.0) => mass_kg,
+        (_, usual) => usual,
+    };
     let mut values: Vec<f64> = dialect.keys.iter().map(usual).collect();
     let mut given = Vec::new();
     for pair in written.split(',').filter(|_| !written.is_empty()) {
@@ -165,23 +173,24 @@ fn of_ui_spring(dialect: &UiSpring, written: &str, mass_kg: f64) -> Result<WishS
             (None, number) => with_unit(number, "").map_err(|fault| format!("{key}: {fault}"))?,
         };
     }
-    let wish = |values: &[f64]| {
-        let wish = dialect.read(values)?;
-        Ok::<_, String>(if dialect.has_mass() { wish } else { Wish { mass_kg, ..wish } })
+    let of_mass = |wish| if dialect.has_mass() { wish } else { Wish { mass_kg, ..wish } };
+    let [as_given, shown] =
+        [dialect.as_given(&values)?, dialect.shown(&values, frame_hz)?].map(of_mass);
+    let said = |wish: Wish| {
+        let [hz, ratio] = [wish.frequency_hz, wish.damping_ratio].map(|x| significant(x, 4));
+        (format!("{hz} Hz, damping ratio {ratio}"), ratio)
     };
-    let shown = wish(&values)?;
-    // The interface does not limit the numbers if its switch is on.
-    let mut switch = "";
-    for (index, key) in dialect.keys.iter().enumerate() {
-        if key.switch.is_some() && !given.contains(&index) {
-            (values[index], switch) = (1.0, key.name);
+    let ((shows, ratio), (says, given)) = (said(shown), said(as_given));
+    let switch = dialect.keys.iter().find(|key| key.switch.is_some());
+    let note = (shows != says).then(|| match (dialect.id, switch) {
+        (id, Some(Key { name, .. })) => {
+            format!("{id} shows damping ratio {ratio} here; with {name}=true it is {given}")
         }
-    }
-    let as_given = wish(&values)?;
-    let [ratio, given] = [shown, as_given].map(|wish| significant(wish.damping_ratio, 4));
-    let note = (shown.damping_ratio < as_given.damping_ratio).then(|| {
-        let id = dialect.id;
-        format!("{id} shows damping ratio {ratio} here; with {switch}=true it is {given}")
+        (id, None) => {
+            let by_frames = format!(" at {frame_hz} frames per second");
+            let at = if dialect.steps() == "exact" { "" } else { &by_frames };
+            format!("{id} shows {shows}{at}; its numbers say {says}")
+        }
     });
     Ok(WishSource::UiSpring { shown, as_given, note })
 }

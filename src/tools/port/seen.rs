@@ -98,15 +98,6 @@ impl Setup {
     }
 }
 
-/// Returns the map of a step of `step_s` seconds, for a method with the spring, per unit of mass, as a part of the
-/// acceleration.
-pub(super) fn map_of_step(method: &'static Method, joint: [f64; 2], step_s: f64) -> Option<Map> {
-    let candidate = Candidate { method, substeps: 1, spring: SpringForm::Acceleration };
-    let body = LoggedBody { spring: Some(joint), ..LoggedBody::default() };
-    let from = |start| run(candidate, &body, start, step_s, 0..=1);
-    columns(&from([SLOW, 0.0])?, &from([0.0, SLOW])?)?.pop()
-}
-
 /// Returns the maps whose columns are these runs, without the starts of the runs; `None` if the maps are not finite.
 fn columns(first: &[[f64; 2]], second: &[[f64; 2]]) -> Option<Vec<Map>> {
     let map = |(a, b): (&[f64; 2], &[f64; 2])| Map::from([*a, *b]) / SLOW;

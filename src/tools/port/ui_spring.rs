@@ -7,7 +7,7 @@ use std::fmt::Write;
 use nalgebra::Matrix2;
 
 use super::follow::map_of_frame;
-use super::seen::{is_stable, map_of_step, spring_of_map};
+use super::seen::{is_stable, spring_of_map};
 use super::{PortOutcome, REACHED, Wish};
 use crate::sim::bodies::Spring;
 use crate::sim::integrators::{in_code, method};
@@ -17,8 +17,11 @@ use crate::sim::{Body, State};
 use crate::tools::identify::Effective;
 
 mod cards;
+mod ends;
 
 pub use cards::UI_SPRINGS;
+use ends::Rest;
+pub use ends::{End, SETTLED, settled_s};
 
 /// A number that a library takes.
 #[derive(Debug)]
@@ -35,6 +38,12 @@ pub struct Key {
     pub switch: Option<Switch>,
 }
 
+impl Key {
+    fn takes(&self, value: f64) -> bool {
+        (self.range[0]..=self.range[1]).contains(&value)
+    }
+}
+
 /// A setting that is on or off.
 #[derive(Debug)]
 pub struct Switch {
@@ -47,6 +56,12 @@ pub struct Switch {
 /// Values of a dialect's keys; unused places are 0.
 type Values = [f64; 4];
 
+fn all_values(values: &[f64]) -> Values {
+    let mut all = Values::default();
+    all.iter_mut().zip(values).for_each(|(to, from)| *to = *from);
+    all
+}
+
 /// The way in which a library advances from frame to frame.
 #[derive(Clone, Copy, Debug)]
 enum Steps {
@@ -58,7 +73,13 @@ enum Steps {
     Sampled,
     /// The library makes a step of semi-implicit Euler in each frame.
     PerFrame,
+    /// The library changes the velocity once a frame by a step of 1/60 s, and moves by the frame's length, which it
+    /// cuts to this many seconds.
+    Kick(f64),
+    /// The library makes steps of semi-implicit Euler of 16 ms.
+    Sixteen,
     /// The library makes steps of semi-implicit Euler of 1 ms. A frame's number of steps is rounded up, to at most 64.
+    /// The first frame has 17 steps at every frame rate.
     Milliseconds,
     /// The library makes a step of the follower `smooth-damp` in each frame.
     SmoothDamp,
@@ -79,13 +100,17 @@ pub struct UiSpring {
     pub version: &'static str,
     /// How the card was checked against that version.
     pub evidence: &'static str,
-    /// Converts values to a motion. `None` if values of this library do not determine a motion.
+    /// Converts values to the motion of their equation. `None` if values of this library do not determine a motion.
     read: Option<fn(Values) -> Wish>,
+    /// Converts values to the motion that the library shows, if it limits values.
+    limited: Option<fn(Values) -> Wish>,
     /// Returns the values that come nearest to a motion.
     write: fn(&Wish) -> Values,
     steps: Steps,
     /// Returns the point at which a motion leaves the closed form, if it does.
     departure: fn(&Wish) -> Option<Departure>,
+    /// The rule by which the library ends a motion.
+    rest: Rest,
     /// A line of code with `<name>` in place of a key's value, or `<name:decimal>` if the language has no exponents.
     code: &'static str,
 }
@@ -118,10 +143,14 @@ pub struct UiSpringPort {
     pub departure: Option<Departure>,
     /// Largest error of a motion drawn through points, as a fraction of the way.
     pub error: Option<f64>,
+    /// The end of the motion over a way of 1, if the library's rule ends it.
+    pub ends: Option<End>,
     /// The line of code; empty if the library has no values for the wish.
     pub code: String,
 }
 
+/// Frame rate in Hz that stands in for an unknown one.
+pub const USUAL_FRAME_HZ: f64 = 60.0;
 /// Number of places at which the error is sampled.
 const PLACES: u32 = 20_000;
 /// Points show another motion if their error is larger than this, as a fraction of the way.
@@ -130,17 +159,28 @@ const ASTRAY: f64 = 0.1;
 /// interval is halved.
 const RATES: [f64; 2] = [1e-6, 1e12];
 const HALVINGS: u32 = 60;
-/// Step of react-spring in seconds, and maximum number of steps in a frame.
+/// Step of react-spring in seconds, maximum number of steps in a frame, and their number in the first frame.
 const STEP_S: f64 = 1e-3;
 const MAX_STEPS: f64 = 64.0;
+const FIRST_STEPS: u32 = 17;
+/// Step of Qt in seconds.
+const SIXTEEN_S: f64 = 0.016;
+/// Step of the velocity in a frame, in seconds.
+const KICK_S: f64 = 1.0 / 60.0;
 
 /// Returns the fraction of the way that is left at this angle (ω times the time) for a spring that starts at rest with
-/// this damping ratio.
-fn part_left(damping_ratio: f64, angle: f64) -> f64 {
+/// this damping ratio, and its change per angle.
+fn left_at(damping_ratio: f64, angle: f64) -> [f64; 2] {
     let spring =
         Spring { mass: 1.0, stiffness: 1.0, damping: 2.0 * damping_ratio, ..Spring::default() };
     let left = spring.exact(angle, &State { q: 1.0, v: 0.0 });
-    left.expect("a spring has a closed form").q
+    let State { q, v } = left.expect("a spring has a closed form");
+    [q, v]
+}
+
+/// Returns the fraction of the way that is left, as [`left_at`] does.
+fn part_left(damping_ratio: f64, angle: f64) -> f64 {
+    left_at(damping_ratio, angle)[0]
 }
 
 /// Formats a number as [`in_code`] does, but without an exponent.
@@ -189,36 +229,67 @@ impl UiSpring {
         self.read.is_some()
     }
 
+    /// Whether the library has a rule that ends a motion.
+    pub fn has_end(&self) -> bool {
+        !matches!(self.rest, Rest::Never)
+    }
+
     /// Whether the library takes a mass.
     pub fn has_mass(&self) -> bool {
         self.keys.iter().any(|key| key.name == "mass")
     }
 
-    /// Returns the motion that these values of the library's keys determine.
+    /// Returns the motion that these values of the library's keys determine, by their equation.
     ///
     /// # Errors
     /// If the values determine no motion, or if a value is out of its range; the error explains the first fault in
     /// words.
-    pub fn read(&self, values: &[f64]) -> Result<Wish, String> {
+    pub fn as_given(&self, values: &[f64]) -> Result<Wish, String> {
         let read = self.read.ok_or_else(|| {
             format!("{} is points of a motion, from which it cannot be told", self.name)
         })?;
-        for (Key { name, range: [least, most], wanted, .. }, value) in self.keys.iter().zip(values)
-        {
-            if !(least..=most).contains(&value) {
+        for (key, value) in self.keys.iter().zip(values) {
+            let Key { name, wanted, .. } = key;
+            if !key.takes(*value) {
                 return Err(format!("{name} is {value}; it must be {wanted}"));
             }
         }
-        let mut all = Values::default();
-        all.iter_mut().zip(values).for_each(|(to, from)| *to = *from);
-        Ok(read(all))
+        Ok(read(all_values(values)))
+    }
+
+    /// Like [`UiSpring::as_given`], within the library's limits.
+    ///
+    /// # Errors
+    /// As [`UiSpring::as_given`].
+    pub fn read(&self, values: &[f64]) -> Result<Wish, String> {
+        let given = self.as_given(values)?;
+        Ok(self.limited.map_or(given, |limited| limited(all_values(values))))
+    }
+
+    /// Like [`UiSpring::read`], as it moves at this many frames per second.
+    ///
+    /// # Errors
+    /// As [`UiSpring::read`], and if the motion is not that of a spring.
+    pub fn shown(&self, values: &[f64], frame_hz: f64) -> Result<Wish, String> {
+        let motion = self.read(values)?;
+        let Some(map) = self.step_s(frame_hz).and(self.map(&motion, frame_hz)) else {
+            return Ok(motion);
+        };
+        let of = |what| format!("so set, {} {what} at {frame_hz} frames per second", self.name);
+        if !map.is_stable() {
+            return Err(of("explodes"));
+        }
+        let seen = map.visible_motion().ok_or_else(|| of("moves as no spring does"))?;
+        Ok(Wish::of(seen, motion.mass_kg))
     }
 
     /// Returns the library's stepping method, which is `exact`, or a method's id.
     pub fn steps(&self) -> &'static str {
         match self.steps {
             Steps::Exact | Steps::WholeMilliseconds | Steps::Sampled => "exact",
-            Steps::PerFrame | Steps::Milliseconds => "semi-implicit-euler",
+            Steps::PerFrame | Steps::Kick(_) | Steps::Sixteen | Steps::Milliseconds => {
+                "semi-implicit-euler"
+            }
             Steps::SmoothDamp => "smooth-damp",
         }
     }
@@ -226,9 +297,11 @@ impl UiSpring {
     /// Returns the library's settings for a wish, whose numbers must [have a meaning](Wish::check_numbers), and the
     /// motion visible at this many frames per second.
     pub fn port(&self, wish: &Wish, frame_hz: f64) -> UiSpringPort {
-        let values = (self.write)(wish);
-        let has_values = values.iter().all(|value| value.is_finite());
-        let motion = self.read.map_or(*wish, |read| read(values));
+        let values = (self.write)(&self.numbers(wish, frame_hz));
+        let has_values = values.iter().all(|value| value.is_finite())
+            && self.keys.iter().zip(values).all(|(key, value)| key.takes(value));
+        let read = self.limited.or(self.read);
+        let motion = read.filter(|_| has_values).map_or(*wish, |read| read(values));
         let (points, error) = match self.steps {
             Steps::Sampled if has_values => curve(wish, values),
             _ => Default::default(),
@@ -272,6 +345,7 @@ impl UiSpring {
             seen,
             departure,
             error: (error > 0.0).then_some(error),
+            ends: self.end(&motion, values, frame_hz).filter(|_| has_values),
             code: if has_values { code } else { String::new() },
         }
     }
@@ -283,29 +357,62 @@ impl UiSpring {
         self.keys.iter().zip(values).filter_map(is_on)
     }
 
+    /// Returns the seconds of a step for the velocity, for the way and on the clock; `None` for a closed form.
+    fn step_s(&self, frame_hz: f64) -> Option<[f64; 3]> {
+        let frame_s = 1.0 / frame_hz;
+        match self.steps {
+            Steps::Exact | Steps::WholeMilliseconds | Steps::Sampled | Steps::SmoothDamp => None,
+            Steps::PerFrame => Some([frame_s; 3]),
+            Steps::Kick(longest) => Some([KICK_S, frame_s.min(longest), frame_s]),
+            Steps::Sixteen => Some([SIXTEEN_S; 3]),
+            Steps::Milliseconds => Some([STEP_S, STEP_S, STEP_S / pace(frame_hz)]),
+        }
+    }
+
     /// Returns the map of one step of this motion; `None` for a closed form.
     fn map(&self, motion: &Wish, frame_hz: f64) -> Option<StepMap> {
-        let (step_s, pace) = match self.steps {
-            Steps::Exact | Steps::WholeMilliseconds | Steps::Sampled => return None,
-            Steps::PerFrame | Steps::SmoothDamp => (1.0 / frame_hz, 1.0),
-            Steps::Milliseconds => (STEP_S, pace(frame_hz)),
+        if let Steps::SmoothDamp = self.steps {
+            let method = method(self.steps()).expect("a method of the table");
+            // A step without a finite map is unstable.
+            let map = map_of_frame(method, motion.omega(), frame_hz);
+            let map = map.unwrap_or(Matrix2::from_element(f64::INFINITY));
+            return Some(StepMap { map, step_s: 1.0 / frame_hz });
+        }
+        let [kick_s, move_s, step_s] = self.step_s(frame_hz)?;
+        let [stiffness, damping] = motion.joint().map(|per_s| per_s * kick_s);
+        let kept = 1.0 - damping;
+        let map = Matrix2::new(1.0 - move_s * stiffness, move_s * kept, -stiffness, kept);
+        Some(StepMap { map, step_s })
+    }
+
+    /// Returns the numbers whose steps show a wish at this many frames per second; the wish itself if none do.
+    fn numbers(&self, wish: &Wish, frame_hz: f64) -> Wish {
+        let Some([kick_s, move_s, step_s]) = self.step_s(frame_hz) else { return *wish };
+        let Wish { damping_ratio: ratio, mass_kg, .. } = *wish;
+        let apart = libm::sqrt((ratio * ratio - 1.0).abs());
+        let [decay, angle] = [ratio, apart].map(|part| part * wish.omega() * step_s);
+        if ratio < 1.0 && angle >= std::f64::consts::PI {
+            return *wish;
+        }
+        // With the eigenvalues λ, these are (1 - λ₁)(1 - λ₂) and 1 - λ₁ λ₂.
+        let stiffness = match ratio < 1.0 {
+            true => {
+                let [gone, half] = [libm::expm1(-decay), libm::sin(angle / 2.0)];
+                gone * gone + 4.0 * libm::exp(-decay) * half * half
+            }
+            false => libm::expm1(angle - decay) * libm::expm1(-angle - decay),
         };
-        let method = method(self.steps()).expect("a method of the table");
-        let map = match self.steps {
-            Steps::SmoothDamp => map_of_frame(method, motion.omega(), frame_hz),
-            _ => map_of_step(method, motion.joint(), step_s),
-        };
-        // A step without a finite map is unstable.
-        let map = map.unwrap_or(Matrix2::from_element(f64::INFINITY));
-        Some(StepMap { map, step_s, pace })
+        let damping = -libm::expm1(-2.0 * decay);
+        Wish::of_joint([stiffness / move_s / kick_s, damping / kick_s], mass_kg)
     }
 
     /// Returns the frames per second below which this motion explodes.
     fn explodes_below_hz(&self, motion: &Wish) -> Option<f64> {
-        let Steps::PerFrame = self.steps else { return None };
+        let (Steps::PerFrame | Steps::Kick(_)) = self.steps else { return None };
         let explodes = |log| self.map(motion, libm::exp(log)).is_some_and(|map| !map.is_stable());
-        let [_, high] = bisect(RATES.map(libm::log), HALVINGS, explodes);
-        Some(libm::exp(high))
+        let rates = RATES.map(libm::log);
+        let [_, high] = bisect(rates, HALVINGS, explodes);
+        explodes(rates[0]).then(|| libm::exp(high))
     }
 
     /// Returns the effect of the frame rate on a port, in words.
@@ -340,14 +447,23 @@ impl UiSpring {
             Steps::Milliseconds => {
                 let off = pace(frame_hz) - 1.0;
                 let way = if off < 0.0 { "slow" } else { "fast" };
-                let turns = if port.seen.is_none() { "; changes sides at every step" } else { "" };
                 format!(
-                    "semi-implicit Euler by 1 ms, rounded up: {} % {way} at {frame_hz} frames per second; lags below {} of them{turns}",
+                    "semi-implicit Euler by 1 ms, rounded up: its time runs {} % {way} at {frame_hz} frames per second, which these numbers allow for; the first frame is always 17 ms; lags below {} of them",
                     percent(off),
                     1.0 / (MAX_STEPS * STEP_S),
                 )
             }
             Steps::SmoothDamp => "a rational function for the exponential: never explodes".into(),
+            Steps::Sixteen => "semi-implicit Euler by 16 ms, at every frame rate".into(),
+            Steps::Kick(_) => {
+                let below = match port.explodes_below_hz {
+                    Some(hz) => format!("explodes below {} frames per second", significant(hz, 3)),
+                    None => "never explodes".into(),
+                };
+                format!(
+                    "v changes once a frame, however long it is: these numbers are for {frame_hz} frames per second; {below}"
+                )
+            }
             Steps::PerFrame => {
                 let below = port.explodes_below_hz.map_or("any".into(), |hz| significant(hz, 3));
                 let turns = match port.seen.is_none() && port.is_stable {
@@ -365,10 +481,8 @@ impl UiSpring {
 /// The map of distance and velocity over a step.
 struct StepMap {
     map: Matrix2<f64>,
-    /// Length of the step, in seconds.
+    /// Length of the step on the clock, in seconds.
     step_s: f64,
-    /// Number of simulated seconds per second.
-    pace: f64,
 }
 
 impl StepMap {
@@ -379,9 +493,7 @@ impl StepMap {
 
     /// Returns the damped spring with the same motion.
     fn visible_motion(&self) -> Option<Effective> {
-        let Self { map, step_s, pace } = self;
-        let Effective { omega, decay } = spring_of_map(map.trace(), map.determinant(), *step_s)?;
-        Some(Effective { omega: pace * omega, decay: pace * decay })
+        spring_of_map(self.map.trace(), self.map.determinant(), self.step_s)
     }
 }
 

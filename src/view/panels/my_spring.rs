@@ -7,13 +7,11 @@ use super::parts::dialog;
 use super::text_field::select;
 use crate::scene::TickRate;
 use crate::studio::{Command, MySpring, SpringField, StageCommand, Studio, ViewCommand};
-use crate::tools::port::{UI_SPRINGS, UiSpring, UiSpringPort};
+use crate::tools::port::{UI_SPRINGS, USUAL_FRAME_HZ, UiSpring, UiSpringPort};
 use crate::tools::source_code::Language;
 use crate::view::theme::{TYPE, palette};
 
 const TITLE: &str = "My spring";
-/// Frame rate in Hz that stands in for an unknown one. The numbers of a library that are shown do not depend on it.
-const USUAL_FRAME_HZ: f64 = 60.0;
 /// Width of a name, width of a number, and height of a line, in points.
 const NAME: f32 = 118.0;
 const NUMBER: f32 = 150.0;

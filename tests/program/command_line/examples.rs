@@ -27,7 +27,7 @@ const BLOCKS: [(&str, &str, usize); 19] = [
     ("commands", "text", 1),
     ("loops", "sh", 1),
     ("logs", "console", 1),
-    ("questions", "console", 15),
+    ("questions", "console", 16),
     ("code", "console", 1),
     ("step", "console", 5),
     ("library", "rust", 2),

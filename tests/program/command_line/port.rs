@@ -162,12 +162,13 @@ fn an_interface_spring_is_converted_with_the_effect_of_the_frame_rate() {
     let [react, apple] = &rows(&found, "dialects")[..] else { panic!("{found}") };
     assert_eq!(
         (&react["word"], &react["steps"]),
-        (&"nearest".into(), &"semi-implicit-euler".into())
+        (&"reached".into(), &"semi-implicit-euler".into())
     );
     assert!(react["explodes_below_hz"].is_null() && apple["steps"] == "exact");
-    // 34 ms in a frame of 33.3 ms.
+    // 34 ms in a frame of 33.3 ms, and the stiffness is lower by the square.
     let hz = react["seen"]["hz"].as_f64().unwrap();
-    assert!((hz / 2.0 / 1.02 - 1.0).abs() < 0.01, "{hz}");
+    let tension = react["settings"]["tension"].as_f64().unwrap();
+    assert!((hz / 2.0 - 1.0).abs() < 1e-7 && (tension / 157.9137 * 1.0404 - 1.0).abs() < 0.02);
     assert!(apple["settings"]["stiffness"].as_f64().is_some_and(|k| (k - 157.9137).abs() < 1e-4));
     let text = stdout_of("port --from swiftui --mass 5 --to flutter,flutter");
     assert!(text.matches("mass: 5.0, stiffness: 789.5683").count() == 1, "{text}");
@@ -320,4 +321,63 @@ fn a_damping_that_an_interface_cuts_is_said() {
     assert!(said.contains(told), "{said}");
     let said = stderr(&run(&format!("port {from},allowsOverdamping=true --to motion")));
     assert!(said.is_empty(), "{said}");
+}
+
+#[test]
+fn an_interface_is_read_as_it_moves_and_its_limits_are_said() {
+    let want = |found: &Value, key: &str| found["want"][key].as_f64().unwrap();
+    let found = json("--from react-native:tension=50,friction=1 --to core-animation");
+    assert!((want(&found, "frequency_hz") - 2.5977).abs() < 1e-4, "{found}");
+    assert!((want(&found, "damping_ratio") - 0.122_536).abs() < 1e-5, "{found}");
+    // 8 % too fast by rounding up 8.33 ms to 9 ms, and back to the same numbers.
+    let from = "--from react-spring:tension=180,friction=12 --tick-hz 120";
+    let output = run(&format!("port {from} --to css,react-spring --format json"));
+    let found: Value = serde_json::from_slice(&output.stdout).unwrap();
+    let by_numbers = 180.0_f64.sqrt() / std::f64::consts::TAU;
+    assert!((want(&found, "frequency_hz") / by_numbers / 1.08 - 1.0).abs() < 0.01, "{found}");
+    let back = &rows(&found, "dialects")[1]["settings"]["tension"];
+    assert!((back.as_f64().unwrap() / 180.0 - 1.0).abs() < 1e-6, "{back}");
+    for (from, told) in [
+        ("react-spring:tension=180,friction=12", "its numbers say 2.135 Hz, damping ratio 0.4472"),
+        ("reanimated:mass=1,stiffness=100,damping=40", "damping ratio 1.000; its numbers say"),
+        ("anime:mass=0.5,stiffness=100", "anime shows 1.592 Hz, damping ratio 0.5000; its numbers"),
+        ("qt:spring=2,damping=0.2", "its numbers say"),
+        ("qt:spring=2,damping=3", "Qt SpringAnimation moves as no spring does at 60 frames"),
+        ("wobble:damping=40", "with allowsOverdamping=true it is 2.000"),
+    ] {
+        let said = stderr(&run(&format!("port --from {from} --to motion")));
+        assert!(said.contains(told), "{from}: {said}");
+    }
+    // Its own mass is 4.
+    assert!(stderr(&run("port --from reanimated --to motion")).is_empty());
+    let exploding = run("port --from per-frame:stiffness=1e5,damping=1 --to motion");
+    assert_eq!(exploding.status.code(), Some(2));
+    assert!(stderr(&exploding).contains("explodes at 60 frames per second"));
+}
+
+#[test]
+fn each_interface_ends_a_motion_by_its_rule_and_the_rest_of_the_way_is_told() {
+    let motion = "--frequency 4.6401Hz --damping-ratio 1.15";
+    let settles =
+        "stays within 1 % of the way from 0.2957 s, 0.1 % from 0.4314 s, 0.01 % from 0.5671 s";
+    let text = stdout_of(&format!("port {motion} --to react-spring,motion,compose"));
+    assert!(text.contains(settles) && text.matches("  ends at ").count() == 3, "{text}");
+    let text = stdout_of("port --from motion:stiffness=100,damping=10 --ends");
+    for line in [
+        "motion                    1.0833 s  0.43 % of the way\n",
+        "reanimated                1.9667 s  0.0043 % of the way\n",
+        "popmotion                 0.6000 s  0.23 % of the way\n",
+        "swiftui                    no rule\n",
+    ] {
+        assert!(text.contains(line), "{line}: {text}");
+    }
+    let found = json(&format!("{motion} --to motion --ends"));
+    let ends = &rows(&found, "dialects")[0]["ends"];
+    assert!((ends["at_s"].as_f64().unwrap() - 0.466_667).abs() < 1e-6, "{ends}");
+    let settles: Vec<f64> =
+        rows(&found["want"], "settles_s").iter().map(|s| s.as_f64().unwrap()).collect();
+    assert!((settles[1] - 0.4314).abs() < 1e-4, "{settles:?}");
+    let refused = run(&format!("port {motion} --to engine-jolt --ends"));
+    assert_eq!(refused.status.code(), Some(2));
+    assert!(stderr(&refused).contains("--ends is for user interfaces"));
 }

@@ -2,7 +2,10 @@
 
 use std::f64::consts::TAU;
 
-use super::{Departure, HALVINGS, Key, Steps, Switch, UiSpring, Values, part_left};
+use super::ends::{Rest, adwaita_s, anime_s, envelope_s};
+use super::{
+    Departure, HALVINGS, KICK_S, Key, SIXTEEN_S, Steps, Switch, UiSpring, Values, part_left,
+};
 use crate::sim::numerics::bisect;
 use crate::tools::port::{REACHED, Wish};
 
@@ -25,6 +28,8 @@ const fn milliseconds(name: &'static str, usual: f64) -> Key {
     Key { range: [1e-3, f64::MAX], wanted: "0.001 or more", ..key(name, usual) }
 }
 
+const ALLOWS_OVERDAMPING: Key =
+    Key { range: [0.0, 1.0], wanted: "true or false", ..ratio("allowsOverdamping", 0.0) };
 const MASS: Key = key("mass", 1.0);
 const STIFFNESS: Key = key("stiffness", 100.0);
 const DAMPING: Key = ratio("damping", 10.0);
@@ -37,17 +42,45 @@ const EQUATION: UiSpring = UiSpring {
     source: "",
     version: "",
     evidence: "",
-    read: Some(|[mass_kg, stiffness, damping, _]| {
-        let ratio = damping / libm::sqrt(stiffness * mass_kg) / 2.0;
-        Wish { mass_kg, ..wish(libm::sqrt(stiffness / mass_kg), ratio) }
-    }),
+    read: Some(equation),
+    limited: None,
     write: |wish| {
         let [stiffness, damping] = wish.joint().map(|per_kg| per_kg * wish.mass_kg);
         [wish.mass_kg, stiffness, damping, 0.0]
     },
     steps: Steps::Exact,
     departure: |_| None,
+    rest: Rest::Never,
     code: "",
+};
+
+/// A spring that is critically damped at most, with a switch against it.
+const OVERDAMPING: UiSpring = UiSpring {
+    limited: Some(|values| match values[3] == 1.0 {
+        true => equation(values),
+        false => at_most_critical(equation(values)),
+    }),
+    write: |wish| {
+        let [mass_kg, stiffness, damping, _] = (EQUATION.write)(wish);
+        [mass_kg, stiffness, damping, f64::from(wish.damping_ratio > 1.0 + REACHED)]
+    },
+    ..EQUATION
+};
+
+/// A spring with a mass that is critically damped at most.
+const CRITICAL: UiSpring = UiSpring {
+    keys: &[MASS, STIFFNESS, key("damping", 10.0)],
+    limited: Some(|values| at_most_critical(equation(values))),
+    ..EQUATION
+};
+
+/// A spring of React Native's Animated.
+const REACT_NATIVE: UiSpring = UiSpring {
+    source: "react-native, packages/react-native/Libraries/Animated: SpringConfig.js, animations/SpringAnimation.js",
+    version: "react-native 4bda59e",
+    evidence: "its source read",
+    rest: Rest::When(|frame| frame.is_within(1e-3, 1e-3)),
+    ..CRITICAL
 };
 
 /// A spring given by its damping ratio and its stiffness, which is the square of ω.
@@ -70,6 +103,31 @@ const BOUNCE: UiSpring = UiSpring {
         [1.0 / wish.frequency_hz, bounce, 0.0, 0.0]
     },
     keys: &[key("duration", 0.5), bounce(0.0)],
+    ..EQUATION
+};
+
+/// A spring of Reanimated.
+const REANIMATED: UiSpring = UiSpring {
+    source: "react-native-reanimated, packages/react-native-reanimated/src/animation/spring: spring.ts, springUtils.ts",
+    version: "4.8.0",
+    evidence: "run",
+    rest: Rest::When(|frame| frame.has_energy(REANIMATED_ENERGY)),
+    ..CRITICAL
+};
+
+/// A spring whose velocity is per 1/60 s, and changes once a frame.
+const SVELTE: UiSpring = UiSpring {
+    keys: &[key("stiffness", 0.15), ratio("damping", 0.8)],
+    evidence: "run",
+    read: Some(|[stiffness, damping, ..]| {
+        Wish::of_joint([stiffness / KICK_S / KICK_S, damping / KICK_S], 1.0)
+    }),
+    write: |wish| {
+        let [stiffness, damping] = wish.joint();
+        [stiffness * KICK_S * KICK_S, damping * KICK_S, 0.0, 0.0]
+    },
+    steps: Steps::Kick(f64::INFINITY),
+    rest: Rest::When(|frame| frame.is_slow(0.01)),
     ..EQUATION
 };
 
@@ -104,30 +162,18 @@ pub static UI_SPRINGS: &[UiSpring] = &[
             STIFFNESS,
             DAMPING,
             Key {
-                range: [0.0, 1.0],
-                wanted: "true or false",
                 switch: Some(Switch {
                     code: "spring.allowsOverdamping = true",
                     note: "allowsOverdamping is of iOS 17 and macOS 14; before, and without it, it is critically damped",
                 }),
-                ..ratio("allowsOverdamping", 0.0)
+                ..ALLOWS_OVERDAMPING
             },
         ],
         source: "developer.apple.com/documentation/quartzcore/caspringanimation; UISpringTimingParameters has the first three",
         version: "iOS 17",
         evidence: "its documentation read",
-        read: Some(|[mass_kg, stiffness, damping, allows_overdamping]| {
-            let critical = 2.0 * libm::sqrt(stiffness * mass_kg);
-            let damping = if allows_overdamping == 1.0 { damping } else { damping.min(critical) };
-            let ratio = damping / critical;
-            Wish { mass_kg, ..wish(libm::sqrt(stiffness / mass_kg), ratio) }
-        }),
-        write: |wish| {
-            let [mass_kg, stiffness, damping, _] = (EQUATION.write)(wish);
-            [mass_kg, stiffness, damping, f64::from(wish.damping_ratio > 1.0 + REACHED)]
-        },
         code: "spring.mass = <mass>; spring.stiffness = <stiffness>; spring.damping = <damping>",
-        ..EQUATION
+        ..OVERDAMPING
     },
     UiSpring {
         id: "css",
@@ -139,6 +185,7 @@ pub static UI_SPRINGS: &[UiSpring] = &[
         read: None,
         write: sampling,
         steps: Steps::Sampled,
+        rest: Rest::After(|_, [duration, ..]| duration),
         code: "transition: translate <duration>s linear(<curve>)",
         ..EQUATION
     },
@@ -148,6 +195,7 @@ pub static UI_SPRINGS: &[UiSpring] = &[
         source: "androidx, compose/animation/animation-core: SpringSimulation.kt, FloatAnimationSpec.kt",
         version: "androidx 7a915f4",
         evidence: "its source read",
+        rest: Rest::After(|motion, _| libm::floor(1e3 * envelope_s(motion, COMPOSE_REST)) / 1e3),
         code: "spring(dampingRatio = <dampingRatio>f, stiffness = <stiffness>f)",
         ..RATIO
     },
@@ -158,6 +206,7 @@ pub static UI_SPRINGS: &[UiSpring] = &[
         source: "androidx, dynamicanimation/dynamicanimation: SpringForce.java, AnimationHandler.java",
         version: "androidx fd79a56",
         evidence: "its source read",
+        rest: Rest::When(|frame| frame.is_within(ANDROID_REST, 62.5 * ANDROID_REST)),
         code: "new SpringForce(target).setDampingRatio(<dampingRatio>f).setStiffness(<stiffness>f)",
         ..RATIO
     },
@@ -167,6 +216,7 @@ pub static UI_SPRINGS: &[UiSpring] = &[
         source: "flutter, packages/flutter/lib/src/physics/spring_simulation.dart",
         version: "flutter 04fbdcf",
         evidence: "its source read",
+        rest: FLUTTER_REST,
         code: "SpringDescription(mass: <mass>, stiffness: <stiffness>, damping: <damping>)",
         ..EQUATION
     },
@@ -179,6 +229,7 @@ pub static UI_SPRINGS: &[UiSpring] = &[
         evidence: "its source read",
         read: Some(|values| BOUNCE.read.expect("it is read")(cut_to_milliseconds(values))),
         write: |wish| to_milliseconds((BOUNCE.write)(wish)),
+        rest: FLUTTER_REST,
         code: "SpringDescription.withDurationAndBounce(duration: Duration(milliseconds: <ms>), bounce: <bounce>)",
         ..BOUNCE
     },
@@ -190,6 +241,7 @@ pub static UI_SPRINGS: &[UiSpring] = &[
         version: "10.1.2",
         evidence: "run",
         steps: Steps::Milliseconds,
+        rest: Rest::When(|frame| frame.is_within(1e-3, 0.1)),
         code: "config: { mass: <mass>, tension: <tension>, friction: <friction> }",
         ..EQUATION
     },
@@ -200,6 +252,7 @@ pub static UI_SPRINGS: &[UiSpring] = &[
         version: "14.14.0",
         evidence: "run",
         departure: motion_cut,
+        rest: Rest::When(|frame| frame.is_within(5e-3, 0.01)),
         code: "transition: { type: \"spring\", mass: <mass>, stiffness: <stiffness>, damping: <damping> }",
         ..EQUATION
     },
@@ -226,6 +279,7 @@ pub static UI_SPRINGS: &[UiSpring] = &[
             let bounce = if ratio > 1.0 { 1.0 / ratio - 1.0 } else { 1.0 - ratio };
             [duration.clamp(0.01, 10.0), bounce, 0.0, 0.0]
         },
+        rest: Rest::After(|_, [duration, ..]| duration),
         code: "transition: { type: \"spring\", duration: <duration>, bounce: <bounce> }",
         ..EQUATION
     },
@@ -249,7 +303,9 @@ pub static UI_SPRINGS: &[UiSpring] = &[
         },
         steps: Steps::WholeMilliseconds,
         departure: slint_departure,
+        rest: Rest::When(|frame| frame.is_within(1e-3, 0.05)),
         code: "animate x { easing: spring(<bounce:decimal>); duration: <ms>ms; }",
+        ..EQUATION
     },
     UiSpring {
         id: "gpui",
@@ -257,7 +313,215 @@ pub static UI_SPRINGS: &[UiSpring] = &[
         source: "zed, crates/gpui/src/spring.rs",
         version: "zed 7d54ea7",
         evidence: "its source read",
+        rest: Rest::When(|frame| frame.is_settled(1e-3)),
         code: "SpringConfig::new(<stiffness>, <damping>, <mass>)",
+        ..EQUATION
+    },
+    UiSpring {
+        id: "popmotion",
+        name: "Popmotion",
+        source: "popmotion, packages/popmotion/src/animations/generators/spring.ts",
+        version: "11.0.5",
+        evidence: "run",
+        rest: Rest::When(|frame| frame.is_within(0.01, 2.0)),
+        code: "animate({ type: \"spring\", mass: <mass>, stiffness: <stiffness>, damping: <damping> })",
+        ..EQUATION
+    },
+    UiSpring {
+        id: "react-native",
+        name: "React Native, tension and friction",
+        keys: &[
+            Key {
+                range: [-194.0 / 3.62 + 30.0 + 1e-9, f64::MAX],
+                wanted: "above −23.59",
+                ..key("tension", 40.0)
+            },
+            Key {
+                range: [-1.0 / 3.0 + 1e-9, f64::MAX],
+                wanted: "above −0.3333",
+                ..key("friction", 7.0)
+            },
+        ],
+        read: Some(origami),
+        limited: Some(|values| at_most_critical(origami(values))),
+        write: to_origami,
+        code: "Animated.spring(x, { toValue, tension: <tension>, friction: <friction> })",
+        ..REACT_NATIVE
+    },
+    UiSpring {
+        id: "react-native-bounciness",
+        name: "React Native, speed and bounciness",
+        keys: &[
+            Key { range: [-4.1, f64::MAX], wanted: "−4.1 or more", ..key("speed", 12.0) },
+            Key { range: [-1e6, 42.5], wanted: "at most 42.5", ..key("bounciness", 8.0) },
+        ],
+        read: Some(bouncy),
+        limited: Some(|values| at_most_critical(bouncy(values))),
+        write: |wish| {
+            let [tension, friction, ..] = to_origami(wish);
+            let least = friction_without_bounce(tension);
+            let part = 1.0 - libm::sqrt(1.0 - (friction - least) / (0.01 - least));
+            [34.0 * (tension - 0.5) / 199.5, 42.5 * part, 0.0, 0.0]
+        },
+        code: "Animated.spring(x, { toValue, speed: <speed>, bounciness: <bounciness> })",
+        ..REACT_NATIVE
+    },
+    UiSpring {
+        id: "react-native-stiffness",
+        name: "React Native, stiffness and damping",
+        code: "Animated.spring(x, { toValue, mass: <mass>, stiffness: <stiffness>, damping: <damping> })",
+        ..REACT_NATIVE
+    },
+    UiSpring {
+        id: "reanimated",
+        name: "Reanimated",
+        keys: &[key("mass", 4.0), key("stiffness", 900.0), key("damping", 120.0)],
+        code: "withSpring(target, { mass: <mass>, stiffness: <stiffness>, damping: <damping> })",
+        ..REANIMATED
+    },
+    UiSpring {
+        id: "reanimated-duration",
+        name: "Reanimated, duration and damping ratio",
+        keys: &[milliseconds("duration", 0.55), key("dampingRatio", 1.0)],
+        read: Some(reanimated),
+        limited: Some(|values| at_most_critical(reanimated(values))),
+        write: |wish| {
+            let ratio = wish.damping_ratio.min(1.0);
+            let energy =
+                |y: f64| libm::exp(-2.0 * y) * ((1.0 + y) * (1.0 + y) + ratio * ratio * y * y);
+            let y = bisect([0.0, 100.0], HALVINGS, |y| energy(y) > REANIMATED_ENERGY)[1];
+            let duration = y / ratio / wish.omega() / REANIMATED_LONGER;
+            to_milliseconds([duration, ratio, 0.0, 0.0])
+        },
+        code: "withSpring(target, { duration: <ms>, dampingRatio: <dampingRatio> })",
+        ..REANIMATED
+    },
+    UiSpring {
+        id: "remotion",
+        name: "Remotion",
+        source: "remotion, packages/core/src/spring/spring-utils.ts",
+        version: "remotion 1529843",
+        evidence: "its source read",
+        code: "spring({ frame, fps, config: { mass: <mass>, stiffness: <stiffness>, damping: <damping> } })",
+        ..CRITICAL
+    },
+    UiSpring {
+        id: "anime",
+        name: "anime.js",
+        source: "anime, src/easings/spring/index.js",
+        version: "4.5.0",
+        evidence: "run",
+        limited: Some(|[mass_kg, stiffness, damping, _]| {
+            equation([mass_kg.max(1.0), stiffness.min(ANIME_MOST), damping.min(ANIME_MOST), 0.0])
+        }),
+        write: |wish| (EQUATION.write)(&Wish { mass_kg: wish.mass_kg.max(1.0), ..*wish }),
+        rest: Rest::After(anime_s),
+        code: "ease: spring({ mass: <mass>, stiffness: <stiffness>, damping: <damping> })",
+        ..EQUATION
+    },
+    UiSpring {
+        id: "wobble",
+        name: "wobble",
+        keys: &[
+            MASS,
+            STIFFNESS,
+            key("damping", 10.0),
+            Key {
+                switch: Some(Switch {
+                    code: "spring.updateConfig({ allowsOverdamping: true })",
+                    note: "without allowsOverdamping it is critically damped",
+                }),
+                ..ALLOWS_OVERDAMPING
+            },
+        ],
+        source: "wobble, src/index.ts",
+        version: "1.5.1",
+        evidence: "run",
+        rest: Rest::When(|frame| frame.is_within(1e-3, 1.0)),
+        code: "new Spring({ mass: <mass>, stiffness: <stiffness>, damping: <damping> })",
+        ..OVERDAMPING
+    },
+    UiSpring {
+        id: "svelte",
+        name: "Svelte Spring",
+        source: "svelte, packages/svelte/src/motion/spring.js",
+        version: "5.57.3",
+        steps: Steps::Kick(1.0 / 30.0),
+        code: "new Spring(0, { stiffness: <stiffness>, damping: <damping> })",
+        ..SVELTE
+    },
+    UiSpring {
+        id: "solid",
+        name: "Solid spring",
+        source: "solid-primitives, packages/spring/src/index.ts",
+        version: "0.1.2",
+        code: "createSpring(0, { stiffness: <stiffness>, damping: <damping> })",
+        ..SVELTE
+    },
+    UiSpring {
+        id: "libadwaita",
+        name: "libadwaita",
+        keys: &[ratio("damping_ratio", 1.0), MASS, STIFFNESS],
+        source: "libadwaita, src/adw-spring-animation.c",
+        version: "1.2.2",
+        evidence: "run",
+        read: Some(|[ratio, mass_kg, stiffness, _]| Wish {
+            mass_kg,
+            ..wish(libm::sqrt(stiffness / mass_kg), ratio)
+        }),
+        write: |wish| [wish.damping_ratio, wish.mass_kg, wish.joint()[0] * wish.mass_kg, 0.0],
+        steps: Steps::WholeMilliseconds,
+        rest: Rest::After(|motion, _| adwaita_s(motion, 1e-3)),
+        code: "adw_spring_params_new(<damping_ratio>, <mass>, <stiffness>)",
+        ..EQUATION
+    },
+    UiSpring {
+        id: "niri",
+        name: "niri",
+        keys: &[
+            Key { range: [0.1, 10.0], wanted: "0.1 to 10", ..key("damping-ratio", 1.0) },
+            Key { range: [1.0, f64::MAX], wanted: "1 or more", ..key("stiffness", 800.0) },
+            Key { range: [1e-5, 0.1], wanted: "0.00001 to 0.1", ..key("epsilon", 1e-4) },
+        ],
+        source: "niri, src/animation/spring.rs",
+        version: "niri 0486fc3",
+        evidence: "its source read",
+        write: |wish| {
+            let stiffness = (wish.omega() * wish.omega()).round().max(1.0);
+            [wish.damping_ratio.clamp(0.1, 10.0), stiffness, 1e-4, 0.0]
+        },
+        rest: Rest::After(|motion, [.., epsilon, _]| adwaita_s(motion, epsilon)),
+        steps: Steps::Exact,
+        code: "spring damping-ratio=<damping-ratio:decimal> stiffness=<stiffness:decimal> epsilon=<epsilon:decimal>",
+        ..RATIO
+    },
+    UiSpring {
+        id: "hyprland",
+        name: "Hyprland",
+        keys: &[MASS, key("stiffness", 250.0), ratio("dampening", 25.0)],
+        source: "hyprutils, src/animation: Spring.cpp, AnimatedVariable.cpp",
+        version: "hyprutils 0.14.0",
+        evidence: "its source read",
+        rest: Rest::When(|frame| frame.is_within(1e-3, 1e-3)),
+        code: "hl.curve(\"NAME\", { type = \"spring\", mass = <mass>, stiffness = <stiffness>, dampening = <dampening> })",
+        ..EQUATION
+    },
+    UiSpring {
+        id: "qt",
+        name: "Qt SpringAnimation",
+        keys: &[key("spring", 2.0), ratio("damping", 0.0), MASS],
+        source: "qtdeclarative, src/quick/util/qquickspringanimation.cpp",
+        version: "6.12.0",
+        evidence: "run",
+        read: Some(qt),
+        limited: Some(|[spring, damping, mass, _]| qt([spring, damping.min(1.0), mass, 0.0])),
+        write: |wish| {
+            let [spring, damping] = wish.joint().map(|per_kg| per_kg * wish.mass_kg * SIXTEEN_S);
+            [spring, damping.min(1.0), wish.mass_kg, 0.0]
+        },
+        steps: Steps::Sixteen,
+        rest: Rest::When(|frame| frame.is_within(0.01, 0.01)),
+        code: "SpringAnimation { spring: <spring>; damping: <damping>; mass: <mass> }",
         ..EQUATION
     },
     UiSpring {
@@ -299,6 +563,82 @@ const OVER: f64 = 1e-3;
 /// Error that points should stay below, as a fraction of the way, and maximum number of points.
 const SAMPLED: f64 = 5e-3;
 const MAX_POINTS: f64 = 100.0;
+
+/// Distance that Compose takes for the end, as a fraction of the way.
+const COMPOSE_REST: f64 = 0.01;
+/// Distance that Android takes for the end of an alpha, as a fraction of the way.
+const ANDROID_REST: f64 = 0.75 / 256.0;
+/// Flutter leaves the distance at the end.
+const FLUTTER_REST: Rest = Rest::When(|frame| frame.is_within(1e-3, 1e-3));
+/// Part of the energy that Reanimated takes for the end, and its real duration in units of the given one.
+const REANIMATED_ENERGY: f64 = 6e-9;
+const REANIMATED_LONGER: f64 = 1.5;
+/// Mass and largest stiffness in Reanimated's search for a duration, and its iterations.
+const REANIMATED_MASS: f64 = 4.0;
+const REANIMATED_STIFFEST: f64 = 8e3;
+const REANIMATED_STEPS: u32 = 100;
+/// Largest stiffness and damping of anime.js.
+const ANIME_MOST: f64 = 1e4;
+
+fn equation([mass_kg, stiffness, damping, _]: Values) -> Wish {
+    Wish::of_joint([stiffness / mass_kg, damping / mass_kg], mass_kg)
+}
+
+fn at_most_critical(wish: Wish) -> Wish {
+    Wish { damping_ratio: wish.damping_ratio.min(1.0), ..wish }
+}
+
+fn qt([spring, damping, mass, _]: Values) -> Wish {
+    equation([mass, spring / SIXTEEN_S, damping / SIXTEEN_S, 0.0])
+}
+
+/// Returns the motion of React Native's tension and friction.
+fn origami([tension, friction, ..]: Values) -> Wish {
+    equation([1.0, (tension - 30.0) * 3.62 + 194.0, (friction - 8.0) * 3.0 + 25.0, 0.0])
+}
+
+/// Returns React Native's tension and friction for a motion.
+fn to_origami(wish: &Wish) -> Values {
+    let [stiffness, damping] = wish.joint();
+    [(stiffness - 194.0) / 3.62 + 30.0, (damping - 25.0) / 3.0 + 8.0, 0.0, 0.0]
+}
+
+/// Returns the friction with which React Native does not bounce.
+fn friction_without_bounce(tension: f64) -> f64 {
+    let [third, second, first, none] = match tension {
+        x if x <= 18.0 => [7e-4, -0.031, 0.64, 1.28],
+        x if x <= 44.0 => [4.4e-5, -0.006, 0.36, 2.0],
+        _ => [4.5e-7, -3.32e-4, 0.1078, 5.84],
+    };
+    ((third * tension + second) * tension + first) * tension + none
+}
+
+/// Returns the motion of React Native's speed and bounciness.
+fn bouncy([speed, bounciness, ..]: Values) -> Wish {
+    let (tension, part) = (0.5 + speed / 34.0 * 199.5, bounciness / 42.5);
+    let least = friction_without_bounce(tension);
+    origami([tension, least + (0.01 - least) * part * (2.0 - part), 0.0, 0.0])
+}
+
+/// Returns the motion that Reanimated finds for a duration and a damping ratio, by its bisection of the stiffness.
+fn reanimated(values: Values) -> Wish {
+    let [duration, ratio, ..] = cut_to_milliseconds(values);
+    let omega = |stiffness: f64| libm::sqrt(stiffness / REANIMATED_MASS);
+    let energy = |stiffness: f64| {
+        let y = ratio * omega(stiffness) * REANIMATED_LONGER * duration;
+        libm::exp(-2.0 * y) * ((1.0 + y) * (1.0 + y) + ratio * ratio * y * y) - REANIMATED_ENERGY
+    };
+    let (mut low, mut high) = (f64::EPSILON, REANIMATED_STIFFEST);
+    let mut stiffness = (low + high) / 2.0;
+    for _ in 0..REANIMATED_STEPS {
+        if energy(stiffness).abs() <= 1e-3 * REANIMATED_ENERGY {
+            break;
+        }
+        *(if energy(stiffness) > 0.0 { &mut low } else { &mut high }) = stiffness;
+        stiffness = (low + high) / 2.0;
+    }
+    Wish { mass_kg: REANIMATED_MASS, ..wish(omega(stiffness), ratio) }
+}
 
 fn wish(omega: f64, damping_ratio: f64) -> Wish {
     Wish { frequency_hz: omega / TAU, damping_ratio, mass_kg: 1.0 }
