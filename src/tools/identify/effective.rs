@@ -2,7 +2,7 @@
 
 use super::candidates::Candidate;
 use super::logged::{Log, LoggedBody};
-use super::motion::run;
+use super::motion::{SLOW, run};
 use crate::sim::least_squares;
 
 /// The visible motion, as that of a damped spring or of a coasting body.
@@ -19,8 +19,6 @@ pub struct Effective {
 const TICKS: u64 = 400;
 /// Minimum number of ticks that are read, even if the body is soon fast.
 const MIN_TICKS: usize = 6;
-/// Start of the run from which the motion is read, in metres and in metres per second.
-pub(crate) const SLOW: f64 = 1e-6;
 /// Reading stops at this distance or speed. Engines limit a body only at far higher speeds.
 const FAST: f64 = 1e-2;
 /// A swing is invisible if its squared frequency is below this share of the squared angular frequency.

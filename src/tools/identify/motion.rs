@@ -1,7 +1,6 @@
 //! Runs a log's body under a candidate.
 
 use super::candidates::{Candidate, SpringForm};
-use super::effective::SLOW;
 use super::logged::LoggedBody;
 use crate::sim::integrators::{fresh, problem};
 use crate::sim::{Query, State, System};
@@ -39,6 +38,8 @@ impl System for Known {
     }
 }
 
+/// Start of a run from which a motion is read, in metres and in metres per second.
+pub(crate) const SLOW: f64 = 1e-6;
 /// A run fails once the magnitude of a value exceeds this.
 const LOST: f64 = 1e150;
 

@@ -18,6 +18,7 @@ use crate::tools::identify::Effective;
 
 mod cards;
 mod ends;
+mod numbers;
 
 pub use cards::UI_SPRINGS;
 use ends::Rest;
@@ -168,8 +169,8 @@ const SIXTEEN_S: f64 = 0.016;
 /// Step of the velocity in a frame, in seconds.
 const KICK_S: f64 = 1.0 / 60.0;
 
-/// Returns the fraction of the way that is left at this angle (ω times the time) for a spring that starts at rest with
-/// this damping ratio, and its change per angle.
+/// Returns the fraction of the way that a spring of this damping ratio has left at an angle (ω times the time) from its
+/// rest at the start, and its change per angle.
 fn left_at(damping_ratio: f64, angle: f64) -> [f64; 2] {
     let spring =
         Spring { mass: 1.0, stiffness: 1.0, damping: 2.0 * damping_ratio, ..Spring::default() };

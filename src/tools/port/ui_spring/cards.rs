@@ -3,33 +3,40 @@
 use std::f64::consts::TAU;
 
 use super::ends::{Rest, adwaita_s, anime_s, envelope_s};
-use super::{
-    Departure, HALVINGS, KICK_S, Key, SIXTEEN_S, Steps, Switch, UiSpring, Values, part_left,
+use super::numbers::{
+    ANDROID_REST, ANIME_MOST, COMPOSE_REST, MOTION_LEAST, REANIMATED_ENERGY, REANIMATED_LONGER,
+    at_most_critical, bouncy, cut_to_milliseconds, equation, friction_without_bounce, motion_angle,
+    motion_cut, motion_omega, origami, qt, reanimated, sampling, slint_departure, to_milliseconds,
+    to_origami, wish,
 };
+use super::{HALVINGS, KICK_S, Key, SIXTEEN_S, Steps, Switch, UiSpring};
 use crate::sim::numerics::bisect;
 use crate::tools::port::{REACHED, Wish};
 
 const fn key(name: &'static str, usual: f64) -> Key {
-    let range = [f64::MIN_POSITIVE, f64::MAX];
-    Key { name, usual, range, wanted: "above 0", switch: None }
+    ranged(name, usual, [f64::MIN_POSITIVE, f64::MAX], "above 0")
+}
+
+const fn ranged(name: &'static str, usual: f64, range: [f64; 2], wanted: &'static str) -> Key {
+    Key { name, usual, range, wanted, switch: None }
 }
 
 const fn ratio(name: &'static str, usual: f64) -> Key {
-    Key { name, usual, range: [0.0, f64::MAX], wanted: "0 or more", switch: None }
+    ranged(name, usual, [0.0, f64::MAX], "0 or more")
 }
 
 const fn bounce(usual: f64) -> Key {
-    let range = [f64::EPSILON - 1.0, 1.0];
-    Key { name: "bounce", usual, range, wanted: "above −1 and at most 1", switch: None }
+    ranged("bounce", usual, [f64::EPSILON - 1.0, 1.0], "above −1 and at most 1")
 }
 
 /// Returns a duration in seconds that the library takes as whole milliseconds.
 const fn milliseconds(name: &'static str, usual: f64) -> Key {
-    Key { range: [1e-3, f64::MAX], wanted: "0.001 or more", ..key(name, usual) }
+    ranged(name, usual, [1e-3, f64::MAX], "0.001 or more")
 }
 
-const ALLOWS_OVERDAMPING: Key =
-    Key { range: [0.0, 1.0], wanted: "true or false", ..ratio("allowsOverdamping", 0.0) };
+const ALLOWS_OVERDAMPING: Key = ranged("allowsOverdamping", 0.0, [0.0, 1.0], "true or false");
+/// Flutter leaves the distance at the end.
+const FLUTTER_REST: Rest = Rest::When(|frame| frame.is_within(1e-3, 1e-3));
 const MASS: Key = key("mass", 1.0);
 const STIFFNESS: Key = key("stiffness", 100.0);
 const DAMPING: Key = ratio("damping", 10.0);
@@ -260,8 +267,8 @@ pub static UI_SPRINGS: &[UiSpring] = &[
         id: "motion-duration",
         name: "Motion, duration and bounce",
         keys: &[
-            Key { range: [0.01, 10.0], wanted: "0.01 to 10", ..key("duration", 0.8) },
-            Key { range: [-1.0, 1.0], wanted: "−1 to 1", ..bounce(0.3) },
+            ranged("duration", 0.8, [0.01, 10.0], "0.01 to 10"),
+            ranged("bounce", 0.3, [-1.0, 1.0], "−1 to 1"),
         ],
         source: "motion, packages/motion-dom/src/animation/generators/spring.ts",
         version: "14.14.0",
@@ -286,10 +293,7 @@ pub static UI_SPRINGS: &[UiSpring] = &[
     UiSpring {
         id: "slint",
         name: "Slint",
-        keys: &[
-            milliseconds("duration", 0.5),
-            Key { range: [-1.0, 1.0], wanted: "−1 to 1", ..bounce(0.0) },
-        ],
+        keys: &[milliseconds("duration", 0.5), ranged("bounce", 0.0, [-1.0, 1.0], "−1 to 1")],
         source: "slint, internal/core: animations/simulations/spring.rs, animations.rs, properties/properties_animations.rs",
         version: "1.18.1",
         evidence: "its line compiled, its source read",
@@ -331,16 +335,8 @@ pub static UI_SPRINGS: &[UiSpring] = &[
         id: "react-native",
         name: "React Native, tension and friction",
         keys: &[
-            Key {
-                range: [-194.0 / 3.62 + 30.0 + 1e-9, f64::MAX],
-                wanted: "above −23.59",
-                ..key("tension", 40.0)
-            },
-            Key {
-                range: [-1.0 / 3.0 + 1e-9, f64::MAX],
-                wanted: "above −0.3333",
-                ..key("friction", 7.0)
-            },
+            ranged("tension", 40.0, [-194.0 / 3.62 + 30.0 + 1e-9, f64::MAX], "above −23.59"),
+            ranged("friction", 7.0, [-1.0 / 3.0 + 1e-9, f64::MAX], "above −0.3333"),
         ],
         read: Some(origami),
         limited: Some(|values| at_most_critical(origami(values))),
@@ -352,8 +348,8 @@ pub static UI_SPRINGS: &[UiSpring] = &[
         id: "react-native-bounciness",
         name: "React Native, speed and bounciness",
         keys: &[
-            Key { range: [-4.1, f64::MAX], wanted: "−4.1 or more", ..key("speed", 12.0) },
-            Key { range: [-1e6, 42.5], wanted: "at most 42.5", ..key("bounciness", 8.0) },
+            ranged("speed", 12.0, [-4.1, f64::MAX], "−4.1 or more"),
+            ranged("bounciness", 8.0, [-1e6, 42.5], "at most 42.5"),
         ],
         read: Some(bouncy),
         limited: Some(|values| at_most_critical(bouncy(values))),
@@ -479,9 +475,9 @@ pub static UI_SPRINGS: &[UiSpring] = &[
         id: "niri",
         name: "niri",
         keys: &[
-            Key { range: [0.1, 10.0], wanted: "0.1 to 10", ..key("damping-ratio", 1.0) },
-            Key { range: [1.0, f64::MAX], wanted: "1 or more", ..key("stiffness", 800.0) },
-            Key { range: [1e-5, 0.1], wanted: "0.00001 to 0.1", ..key("epsilon", 1e-4) },
+            ranged("damping-ratio", 1.0, [0.1, 10.0], "0.1 to 10"),
+            ranged("stiffness", 800.0, [1.0, f64::MAX], "1 or more"),
+            ranged("epsilon", 1e-4, [1e-5, 0.1], "0.00001 to 0.1"),
         ],
         source: "niri, src/animation/spring.rs",
         version: "niri 0486fc3",
@@ -546,193 +542,3 @@ pub static UI_SPRINGS: &[UiSpring] = &[
         ..EQUATION
     },
 ];
-
-/// Smallest damping ratio that Motion derives from a bounce. Its reciprocal is the largest one.
-const MOTION_LEAST: f64 = 0.05;
-/// Number of Newton steps with which Motion finds a frequency.
-const MOTION_STEPS: u32 = 11;
-/// Angle ω √(ζ² − 1) t at which Motion cuts a spring with a mass, and the ω √(ζ² − 1) in rad/s from which on it does
-/// so.
-const MOTION_CUT: f64 = 300.0;
-const MOTION_CUT_FROM: f64 = 1000.0;
-/// Smallest damping ratio of Slint after the duration, and the excess over 1 that Slint leaves alone.
-const SLINT_LEAST: f64 = 0.13;
-const SLINT_CRITICAL: f64 = 1e-3;
-/// A motion is over once the fraction of the way that is left is at most this.
-const OVER: f64 = 1e-3;
-/// Error that points should stay below, as a fraction of the way, and maximum number of points.
-const SAMPLED: f64 = 5e-3;
-const MAX_POINTS: f64 = 100.0;
-
-/// Distance that Compose takes for the end, as a fraction of the way.
-const COMPOSE_REST: f64 = 0.01;
-/// Distance that Android takes for the end of an alpha, as a fraction of the way.
-const ANDROID_REST: f64 = 0.75 / 256.0;
-/// Flutter leaves the distance at the end.
-const FLUTTER_REST: Rest = Rest::When(|frame| frame.is_within(1e-3, 1e-3));
-/// Part of the energy that Reanimated takes for the end, and its real duration in units of the given one.
-const REANIMATED_ENERGY: f64 = 6e-9;
-const REANIMATED_LONGER: f64 = 1.5;
-/// Mass and largest stiffness in Reanimated's search for a duration, and its iterations.
-const REANIMATED_MASS: f64 = 4.0;
-const REANIMATED_STIFFEST: f64 = 8e3;
-const REANIMATED_STEPS: u32 = 100;
-/// Largest stiffness and damping of anime.js.
-const ANIME_MOST: f64 = 1e4;
-
-fn equation([mass_kg, stiffness, damping, _]: Values) -> Wish {
-    Wish::of_joint([stiffness / mass_kg, damping / mass_kg], mass_kg)
-}
-
-fn at_most_critical(wish: Wish) -> Wish {
-    Wish { damping_ratio: wish.damping_ratio.min(1.0), ..wish }
-}
-
-fn qt([spring, damping, mass, _]: Values) -> Wish {
-    equation([mass, spring / SIXTEEN_S, damping / SIXTEEN_S, 0.0])
-}
-
-/// Returns the motion of React Native's tension and friction.
-fn origami([tension, friction, ..]: Values) -> Wish {
-    equation([1.0, (tension - 30.0) * 3.62 + 194.0, (friction - 8.0) * 3.0 + 25.0, 0.0])
-}
-
-/// Returns React Native's tension and friction for a motion.
-fn to_origami(wish: &Wish) -> Values {
-    let [stiffness, damping] = wish.joint();
-    [(stiffness - 194.0) / 3.62 + 30.0, (damping - 25.0) / 3.0 + 8.0, 0.0, 0.0]
-}
-
-/// Returns the friction with which React Native does not bounce.
-fn friction_without_bounce(tension: f64) -> f64 {
-    let [third, second, first, none] = match tension {
-        x if x <= 18.0 => [7e-4, -0.031, 0.64, 1.28],
-        x if x <= 44.0 => [4.4e-5, -0.006, 0.36, 2.0],
-        _ => [4.5e-7, -3.32e-4, 0.1078, 5.84],
-    };
-    ((third * tension + second) * tension + first) * tension + none
-}
-
-/// Returns the motion of React Native's speed and bounciness.
-fn bouncy([speed, bounciness, ..]: Values) -> Wish {
-    let (tension, part) = (0.5 + speed / 34.0 * 199.5, bounciness / 42.5);
-    let least = friction_without_bounce(tension);
-    origami([tension, least + (0.01 - least) * part * (2.0 - part), 0.0, 0.0])
-}
-
-/// Returns the motion that Reanimated finds for a duration and a damping ratio, by its bisection of the stiffness.
-fn reanimated(values: Values) -> Wish {
-    let [duration, ratio, ..] = cut_to_milliseconds(values);
-    let omega = |stiffness: f64| libm::sqrt(stiffness / REANIMATED_MASS);
-    let energy = |stiffness: f64| {
-        let y = ratio * omega(stiffness) * REANIMATED_LONGER * duration;
-        libm::exp(-2.0 * y) * ((1.0 + y) * (1.0 + y) + ratio * ratio * y * y) - REANIMATED_ENERGY
-    };
-    let (mut low, mut high) = (f64::EPSILON, REANIMATED_STIFFEST);
-    let mut stiffness = (low + high) / 2.0;
-    for _ in 0..REANIMATED_STEPS {
-        if energy(stiffness).abs() <= 1e-3 * REANIMATED_ENERGY {
-            break;
-        }
-        *(if energy(stiffness) > 0.0 { &mut low } else { &mut high }) = stiffness;
-        stiffness = (low + high) / 2.0;
-    }
-    Wish { mass_kg: REANIMATED_MASS, ..wish(omega(stiffness), ratio) }
-}
-
-fn wish(omega: f64, damping_ratio: f64) -> Wish {
-    Wish { frequency_hz: omega / TAU, damping_ratio, mass_kg: 1.0 }
-}
-
-/// Rounds the duration to milliseconds, as code gives it.
-fn to_milliseconds([seconds, rest @ ..]: Values) -> Values {
-    let [second, third, fourth] = rest;
-    [(1e3 * seconds).round().max(1.0) / 1e3, second, third, fourth]
-}
-
-/// Cuts the duration to milliseconds, as the library reads it.
-fn cut_to_milliseconds([seconds, rest @ ..]: Values) -> Values {
-    let [second, third, fourth] = rest;
-    // The addition restores a whole number that rounding has lowered.
-    [libm::floor(1e3 * seconds + 1e-6) / 1e3, second, third, fourth]
-}
-
-/// Returns the angle ω t at which a spring with a damping ratio of 1 or more has [`OVER`] of its way left.
-fn angle_of(ratio: f64) -> f64 {
-    bisect([0.0, 40.0 * ratio], HALVINGS, |angle| part_left(ratio, angle) > OVER)[0]
-}
-
-/// Returns the angle ω t at which Motion considers a spring settled. Below critical damping, ζ / √(1 − ζ²) exp(−ζ ω t)
-/// is [`OVER`] at this angle.
-fn motion_angle(ratio: f64) -> f64 {
-    match ratio < 1.0 {
-        true => -libm::log(OVER * libm::sqrt(1.0 - ratio * ratio) / ratio) / ratio,
-        false => motion_overdamped_angle(ratio, angle_of(1.0)),
-    }
-}
-
-/// Returns the angular frequency that Motion finds for a duration. Near critical damping, Motion's few Newton steps do
-/// not suffice.
-fn motion_omega(ratio: f64, duration: f64) -> f64 {
-    if ratio >= 1.0 {
-        return motion_angle(ratio) / duration;
-    }
-    let scale = ratio / libm::sqrt(1.0 - ratio * ratio);
-    (0..MOTION_STEPS).fold(5.0 / duration, |omega, _| {
-        let left = scale * libm::exp(-ratio * omega * duration);
-        omega - (OVER - left) / (ratio * duration * left)
-    })
-}
-
-/// Returns the angle ω t at which a spring with a damping ratio above 1 has as much left as a critically damped spring
-/// at `critical`.
-fn motion_overdamped_angle(ratio: f64, critical: f64) -> f64 {
-    if ratio <= 1.0 {
-        return critical;
-    }
-    let apart = libm::sqrt(ratio * ratio - 1.0);
-    let (slow, fast) = (ratio - apart, ratio + apart);
-    let target = 2.0 * apart * libm::exp(-critical) * (1.0 + critical);
-    (0..MOTION_STEPS).fold(critical, |angle, _| {
-        let [of_slow, of_fast] = [slow, fast].map(|rate| libm::exp(-rate * angle));
-        angle - (fast * of_slow - slow * of_fast - target) / (of_fast - of_slow)
-    })
-}
-
-/// Returns the point at which Motion makes a stiff, heavily damped spring jump to its end.
-fn motion_cut(told: &Wish) -> Option<Departure> {
-    let ratio = told.damping_ratio;
-    let apart = libm::sqrt((ratio * ratio - 1.0).max(0.0));
-    let left = part_left(ratio, MOTION_CUT / apart);
-    (apart * told.omega() >= MOTION_CUT_FROM && left > OVER).then(|| Departure {
-        at_s: MOTION_CUT / apart / told.omega(),
-        left,
-        damping_ratio: None,
-    })
-}
-
-/// Returns the point at which Slint changes a spring that does not rest after its duration, the period.
-fn slint_departure(told: &Wish) -> Option<Departure> {
-    let ratio = told.damping_ratio;
-    let later = if ratio >= 1.0 + SLINT_CRITICAL { 1.0 } else { ratio.max(SLINT_LEAST) };
-    let departure = Departure {
-        at_s: 1.0 / told.frequency_hz,
-        left: part_left(ratio, TAU).abs(),
-        damping_ratio: Some(later),
-    };
-    (later != ratio).then_some(departure)
-}
-
-/// Returns the duration in seconds after which less than [`OVER`] is left, and the number of points that is enough for
-/// [`SAMPLED`].
-fn sampling(wish: &Wish) -> Values {
-    let ratio = wish.damping_ratio;
-    let angle = match ratio < 1.0 {
-        true => -libm::log(OVER * libm::sqrt(1.0 - ratio * ratio)) / ratio,
-        false => angle_of(ratio),
-    };
-    // The error of a straight line is an eighth of the curvature, which is at most 1, times the square of the line's
-    // length.
-    let points = libm::ceil(angle / libm::sqrt(8.0 * SAMPLED)) + 1.0;
-    [angle / wish.omega(), points.clamp(2.0, MAX_POINTS), 0.0, 0.0]
-}

@@ -117,7 +117,7 @@ pub(super) fn adwaita_s(wish: &Wish, epsilon: f64) -> f64 {
 const ANIME_STEP_S: f64 = 0.02;
 const ANIME_REST: f64 = 5e-4;
 const ANIME_STEPS: usize = 11;
-/// Longest duration that anime.js takes, in such steps.
+/// Largest number of such steps.
 const ANIME_LONGEST: usize = 3000;
 
 /// Returns the duration in seconds that anime.js finds.
