@@ -12,6 +12,7 @@ use super::table_args::TableArgs;
 use super::terminal::print_status;
 use super::tick_rate::{rate_of_a_log, rate_of_a_step};
 use crate::regular_file;
+use crate::table::{Heading, TableOptions};
 use crate::tools::identify::{Log, LogError, LogSetting, LoggedBody, identify};
 
 mod findings;
@@ -24,7 +25,7 @@ The unit of t is in its heading, or found by its size; without t and tick, the r
 If rows are skipped, a column tick counts them; without it, t does. Rows at uneven times, as of a video,
 show the motion but not the method; rows that step alike whatever their times are ticks. If a log without v
 fits several methods, identify assumes a start at rest where that decides. At most 3000 ticks are read;
---rows, or --start and --end choose which. A line on standard error has the rows, the columns and those
+--rows, or --start and --end choose which. Where y and z are there too, each is answered. A line on standard error has the rows, the columns and those
 left out, the unit and the rate; in JSON it is read.
 The body is one of:
 
@@ -146,19 +147,19 @@ fn remedy(error: &LogError) -> &'static str {
 
 impl LogArgs {
     /// Reads the log at `path`, which comes from a game with this tick rate in hertz. Without one the log's times give
-    /// it, or else `usual_hz`.
+    /// it, or else `usual_hz`. `others` are the table's options, if not these.
     pub(super) fn read(
         &self,
         path: &Path,
-        tick_hz: Option<f64>,
-        usual_hz: Option<f64>,
+        (tick_hz, usual_hz): (Option<f64>, Option<f64>),
+        others: Option<TableOptions>,
     ) -> Result<Log, Error> {
+        let options = others.unwrap_or_else(|| self.table.options());
         let bytes = regular_file::read_table(path).map_err(|error| {
             Error::mistake(format!("cannot read the log {}: {error}", brief(path)))
         })?;
         let is_standard = path.as_os_str() == "-";
         let name = if is_standard { "standard input".into() } else { brief(path) };
-        let options = self.table.options();
         let mut parsed = Log::from_bytes(&name, &bytes, &options, tick_hz);
         let is_missing = |error: &LogError| error.mistaken == Some(LogSetting::MissingTickRate);
         if usual_hz.is_some() && parsed.as_ref().is_err_and(is_missing) {
@@ -182,13 +183,45 @@ impl LogArgs {
 }
 
 pub(super) fn run(args: &IdentifyArgs) -> Result<(), Error> {
-    let log = args.read.read(&args.log, args.tick_hz.or(args.step), None)?;
-    let tick_hz = log.tick_hz();
-    let found = identify(&log, &args.read.body(args.mass), tick_hz);
-    let text = match (args.format, &found) {
-        (TableFormat::Text, Some(found)) => report_text(found, &log, args.mass),
-        (TableFormat::Text, None) => NOTHING_RUNS.to_owned(),
-        (TableFormat::Json, found) => format!("{:#}\n", object(found.as_ref(), &log, args.mass)),
-    };
+    let tick_hz = args.tick_hz.or(args.step);
+    let log = args.read.read(&args.log, (tick_hz, None), None)?;
+    let others: Vec<(&str, Log)> = other_coordinates(args, &log)
+        .into_iter()
+        .filter_map(|(name, options)| {
+            let log = args.read.read(&args.log, (tick_hz, None), Some(options));
+            log.map_err(|error| print_status(&format!("{name}: {error}"))).ok().map(|it| (name, it))
+        })
+        .collect();
+    let found = |log: &Log| identify(log, &args.read.body(args.mass), log.tick_hz());
+    if let TableFormat::Json = args.format {
+        let of = |log| object(found(log).as_ref(), log, args.mass);
+        let mut first = of(&log);
+        others.iter().for_each(|(name, log)| first["others"][name] = of(log));
+        return args.format.print(&format!("{first:#}\n"));
+    }
+    let of =
+        |log| found(log).map_or(NOTHING_RUNS.into(), |found| report_text(&found, log, args.mass));
+    let mut text = of(&log);
+    others.iter().for_each(|(name, log)| text += &format!("\n{name}\n{}", of(log)));
     args.format.print(&text)
+}
+
+/// Returns the coordinates of the body beside x, with how each is read. A log with the velocity of x alone, and standard
+/// input, give none.
+fn other_coordinates(args: &IdentifyArgs, log: &Log) -> Vec<(&'static str, TableOptions)> {
+    let options = args.read.table.options();
+    if options.x.is_some() || args.log.as_os_str() == "-" {
+        return Vec::new();
+    }
+    let left_out = &log.taken().left_out;
+    let find = |starts: [&str; 3], axis| {
+        let known = starts.map(|start| format!("{start}{axis}"));
+        left_out.iter().find(|name| known.contains(&Heading::of(name).base)).cloned()
+    };
+    let of = |axis| {
+        let (x, v) = (find(["", "pos ", "position "], axis)?, find(["v", "v ", "vel "], axis));
+        let is_read = v.is_some() || !log.has_velocities();
+        is_read.then(|| (axis, TableOptions { x: Some(x), v, ..options.clone() }))
+    };
+    ["y", "z"].into_iter().filter_map(of).collect()
 }

@@ -37,13 +37,14 @@ pub struct Fitted {
 }
 
 /// The conclusion about a log.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Conclusion {
     /// One method fits, alone or with other methods that move this body alike.
     Identified,
     /// The log does not single out a method, because others fit as well, or because the residual is doubtful.
     CannotTell,
     /// No method fits to noise level.
+    #[default]
     Unknown,
 }
 
@@ -59,7 +60,7 @@ impl Conclusion {
 }
 
 /// The findings about a log.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct Identification {
     /// The conclusion.
     pub conclusion: Conclusion,
@@ -181,9 +182,9 @@ fn identify_with(
         residual: fit.residual(),
     };
     let of = |fits: &[&(Candidate, Fit)]| fits.iter().map(|(candidate, _)| *candidate).collect();
-    let (is_spring_fitted, is_rest_fitted) = (body.spring.is_none(), body.rest.is_none());
+    let asked = Identification::unknown(body);
     let mut body = best_fit.body.clone();
-    if conclusion == Conclusion::Unknown && is_spring_fitted {
+    if conclusion == Conclusion::Unknown && asked.is_spring_fitted {
         // Only the swing that is named may be compared with its equation.
         body.spring = swing.and_then(|swing| swing.seen.spring());
     }
@@ -205,18 +206,13 @@ fn identify_with(
         also: of(&same[1..]),
         unusual: of(&unusual),
         runner_up: rival.map(fitted),
-        is_spring_fitted,
         rest: body.rest.unwrap_or(0.0),
-        is_rest_fitted,
-        supposes_start_at_rest: false,
-        rows_are_ticks: None,
-        simple: None,
-        unexplained: None,
         from_exact: is_identified.then(|| from_exact(log, best_fit, tick_s)).flatten(),
         swing,
         effective,
         exact,
         recommended,
+        ..asked
     })
 }
 
@@ -256,23 +252,10 @@ impl Identification {
     /// Returns the result for a log that shows nothing of the method.
     fn unknown(body: &LoggedBody) -> Self {
         Self {
-            conclusion: Conclusion::Unknown,
-            best: None,
-            also: Vec::new(),
-            unusual: Vec::new(),
-            runner_up: None,
             is_spring_fitted: body.spring.is_none(),
             rest: body.rest.unwrap_or(0.0),
             is_rest_fitted: body.rest.is_none(),
-            supposes_start_at_rest: false,
-            from_exact: None,
-            rows_are_ticks: None,
-            simple: None,
-            unexplained: None,
-            swing: None,
-            effective: None,
-            exact: None,
-            recommended: Vec::new(),
+            ..Self::default()
         }
     }
 }

@@ -10,7 +10,7 @@ use super::dice::Dice;
 /// Number of series of each kind; `SERIES` gives another.
 const SERIES: usize = 8;
 /// Least share of the series of a kind that is named.
-const NAMED: f64 = 0.8;
+const NAMED: f64 = 0.98;
 
 /// A kind of motion, its coordinate at a time, and whether an answer is right; `None` if the kind has no name.
 struct Kind {
@@ -171,9 +171,13 @@ fn motions_of_twelve_kinds_are_named_rightly_or_not_at_all() {
             let rows = times.iter().zip(&x).map(|(t, x)| format!("{t:.6},{x:.6}\n"));
             let text = format!("t,x\n{}", rows.collect::<String>());
             let log = Log::parse("log", &text, &TableOptions::default(), 60.0).unwrap();
-            let (simple, is_swing) = answer(identify(&log, &LoggedBody::default(), 60.0).as_ref());
+            let found = identify(&log, &LoggedBody::default(), 60.0);
+            let (simple, is_swing) = answer(found.as_ref());
+            // Two swings of nearly one frequency are one to the noise.
+            let residual = found.and_then(|it| it.swing).map(|swing| swing.residual);
+            let is_one = kind.name == "two swings" && residual.is_some_and(|part| part < 2e-3);
             let is_right = simple.as_ref().is_some_and(|it| kind.is_right.is_some_and(|of| of(it)))
-                || simple.is_none() && is_swing && kind.is_swing;
+                || simple.is_none() && is_swing && (kind.is_swing || is_one);
             let is_silent = simple.is_none() && !is_swing;
             named += usize::from(is_right);
             if !is_right && !is_silent {

@@ -219,7 +219,7 @@ pub(super) fn simplest(log: &Log, swing: Option<&FittedSwing>) -> Option<SimpleM
 
 /// Share of the spread that a swing may leave at most, and from which on its residuals must look like noise.
 const MOST_LEFT: f64 = 0.3;
-const SMALL_LEFT: f64 = 0.03;
+const SMALL_LEFT: f64 = 0.005;
 /// Correlation of successive residuals from which on they are no noise.
 const NO_NOISE: f64 = 0.7;
 /// Turns that a log must show, and turns that suffice without noise.

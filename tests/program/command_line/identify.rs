@@ -506,3 +506,35 @@ fn the_ports_of_a_log_say_what_was_read_and_take_its_rate() {
     assert_eq!(found["read"]["rows"], serde_json::json!([1, 90]));
     assert_eq!(found["read"]["unit"], "seconds");
 }
+
+#[test]
+fn each_coordinate_of_a_log_is_answered() {
+    let folder = tempdir().unwrap();
+    let row = |tick: u32| {
+        let t = f64::from(tick) / 60.0;
+        let y = 2.0 - 2.0 * (-t / 0.5 * 2.0_f64.ln()).exp();
+        format!("{t},{},{y},7", (-0.3 * t).exp() * (std::f64::consts::TAU * t).cos())
+    };
+    let rows: Vec<String> = (0..180).map(row).collect();
+    let log = |header: &str| {
+        let text = format!("{header}\n{}\n", rows.join("\n"));
+        fs::write(folder.path().join("log.csv"), text).unwrap();
+    };
+    log("t,pos_x,pos_y,pos_z");
+    let output = run_in(folder.path(), "identify log.csv");
+    let (text, said) = (String::from_utf8(output.stdout.clone()).unwrap(), stderr(&output));
+    let (of_x, of_y) = text.split_once("\ny\n").unwrap_or_else(|| panic!("{text}"));
+    assert!(of_x.contains("1.001 Hz") && of_y.contains("a chase"), "{text}");
+    assert!(of_y.contains("halves in 0.5000 s and ends at 2.000 m"), "{text}");
+    assert!(said.contains("z: ") && said.contains("nothing moves"), "{said}");
+    let output = run_in(folder.path(), "identify log.csv --format json");
+    let found: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    let half_life = &found["others"]["y"]["chase_half_life_s"];
+    assert!(half_life.as_f64().is_some_and(|s| (s - 0.5).abs() < 1e-4), "{half_life}");
+    // The velocity of x is not that of y.
+    log("t,x,y,vx");
+    let output = run_in(folder.path(), "identify log.csv");
+    assert!(!String::from_utf8(output.stdout).unwrap().contains("\ny\n"));
+    let output = run_in(folder.path(), "identify log.csv --x-column y --v-column vx");
+    assert!(!String::from_utf8(output.stdout).unwrap().contains("\nx\n"));
+}
