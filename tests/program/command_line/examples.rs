@@ -99,7 +99,7 @@ fn every_example_with_an_answer_prints_that_answer() {
         compared.extend((count > 0).then_some((text.name, count)));
     }
     let expected =
-        [("commands", 4), ("logs", 1), ("questions", 19), ("code", 1), ("step", 3), ("README", 1)];
+        [("commands", 4), ("logs", 1), ("questions", 20), ("code", 1), ("step", 3), ("README", 1)];
     assert_eq!(compared, expected);
 }
 

@@ -524,7 +524,7 @@ fn each_coordinate_of_a_log_is_answered() {
     let output = run_in(folder.path(), "identify log.csv");
     let (text, said) = (String::from_utf8(output.stdout.clone()).unwrap(), stderr(&output));
     let (of_x, of_y) = text.split_once("\ny\n").unwrap_or_else(|| panic!("{text}"));
-    assert!(of_x.contains("1.001 Hz") && of_y.contains("a chase"), "{text}");
+    assert!(of_x.contains("1.000 Hz") && of_y.contains("a chase"), "{text}");
     assert!(of_y.contains("halves in 0.5000 s and ends at 2.000 m"), "{text}");
     assert!(said.contains("z: ") && said.contains("nothing moves"), "{said}");
     let output = run_in(folder.path(), "identify log.csv --format json");
