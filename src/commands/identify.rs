@@ -206,8 +206,8 @@ pub(super) fn run(args: &IdentifyArgs) -> Result<(), Error> {
     args.format.print(&text)
 }
 
-/// Returns the coordinates of the body beside x, with how each is read. A log with the velocity of x alone, and standard
-/// input, give none.
+/// Returns the coordinates of the body beside x, with the options that read each. A log with the velocity of x alone
+/// gives none, and so does standard input.
 fn other_coordinates(args: &IdentifyArgs, log: &Log) -> Vec<(&'static str, TableOptions)> {
     let options = args.read.table.options();
     if options.x.is_some() || args.log.as_os_str() == "-" {

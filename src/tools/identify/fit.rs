@@ -147,7 +147,9 @@ pub(super) fn fit(
         Some((start, body, now))
     };
     // Most candidates are linear, so that the map of a tick stands for their steps.
-    let by_map = refine(&mapped).and_then(|(start, body, now)| {
+    let first = stepped(&body, start).zip(mapped(&body, start));
+    let is_linear = first.is_some_and(|(steps, map)| are_alike(&steps, &map));
+    let by_map = is_linear.then(|| refine(&mapped)).flatten().and_then(|(start, body, now)| {
         let steps = stepped(&body, start)?;
         are_alike(&steps, &now).then_some((start, body, steps))
     });

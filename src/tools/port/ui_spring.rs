@@ -169,8 +169,8 @@ const SIXTEEN_S: f64 = 0.016;
 /// Step of the velocity in a frame, in seconds.
 const KICK_S: f64 = 1.0 / 60.0;
 
-/// Returns the fraction of the way that a spring of this damping ratio has left at an angle (ω times the time) from its
-/// rest at the start, and its change per angle.
+/// Returns the fraction of the way that is left at this angle (ω times the time), and its change per angle. The spring
+/// starts at rest, and has this damping ratio.
 fn left_at(damping_ratio: f64, angle: f64) -> [f64; 2] {
     let spring =
         Spring { mass: 1.0, stiffness: 1.0, damping: 2.0 * damping_ratio, ..Spring::default() };

@@ -317,7 +317,7 @@ pub static UI_SPRINGS: &[UiSpring] = &[
         source: "zed, crates/gpui/src/spring.rs",
         version: "zed 7d54ea7",
         evidence: "its source read",
-        rest: Rest::When(|frame| frame.is_settled(1e-3)),
+        rest: Rest::When(|frame| frame.is_within(1e-3, 1e-3 * frame.omega)),
         code: "SpringConfig::new(<stiffness>, <damping>, <mass>)",
         ..EQUATION
     },

@@ -25,18 +25,13 @@ pub(super) struct Frame {
     /// Speed, as fractions of the way per second.
     speed: f64,
     /// Angular frequency of the motion, in rad/s.
-    omega: f64,
+    pub(super) omega: f64,
 }
 
 impl Frame {
     /// Whether the distance and the speed are at most these.
     pub(super) fn is_within(&self, left: f64, speed: f64) -> bool {
         self.left.abs() <= left && self.speed.abs() <= speed
-    }
-
-    /// Like [`Frame::is_within`], with a speed per radian.
-    pub(super) fn is_settled(&self, left: f64) -> bool {
-        self.is_within(left, left * self.omega)
     }
 
     /// Whether the distance before the frame and the move in it are below this.
