@@ -279,7 +279,7 @@ mod tests {
         assert_eq!(verdict.outcome().severity(), Severity::Doubtful);
         studio.apply(StageCommand::Pick(0));
         assert_eq!(said(&studio), "grows · swing ×2 in 2.1 s");
-        assert_eq!(selected(&studio).details()[0], "already 1.9 × too wide");
+        assert_eq!(selected(&studio).details()[0], "1.9 × too wide at 2 s");
         studio.apply(StageCommand::ToggleRace);
         studio.analyse();
         let raced = studio.viewer.verdict(1).expect("it is judged").to_string();
