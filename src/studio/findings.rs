@@ -150,9 +150,9 @@ mod tests {
     use std::thread;
 
     use super::*;
-    use crate::measure::{Severity, Verdict};
+    use crate::measure::{Outcome, Severity, Verdict};
     use crate::scene::{Action, SCENES, Scene};
-    use crate::studio::{RunCommand, StageCommand, Studio};
+    use crate::studio::{Command, RunCommand, StageCommand, Studio};
 
     /// Seconds before and after a change of the run.
     const BEFORE_S: f64 = 1.5;
@@ -260,6 +260,30 @@ mod tests {
             found.fold((0, 0), |all, one| (all.0 + one.0, all.1 + one.1))
         });
         assert!(found.0 >= 20 && found.1 >= 40, "of how many swings it was asked: {found:?}");
+    }
+
+    #[test]
+    fn a_motion_in_the_other_well_never_looks_right() {
+        for kicked in [87, 88, 89] {
+            let mut studio = Studio::new(Scene::built_in("duffing").unwrap());
+            let changes: [(u64, Command); 5] = [
+                (16, StageCommand::Pick(0).into()),
+                (58, StageCommand::Pick(1).into()),
+                (kicked, RunCommand::Act(Action::Kick(1.0)).into()),
+                (126, StageCommand::Pick(3).into()),
+                (172, StageCommand::TickHz(15.into()).into()),
+            ];
+            for (tick, change) in changes {
+                while studio.race().tick() < tick {
+                    studio.tick();
+                }
+                studio.apply(change);
+            }
+            let verdict = selected(&studio);
+            let found = verdict.comparison().expect("it has a truth");
+            assert!(found.error.is_finite() && found.error > 1.5, "{kicked}: {found:?}");
+            assert!(verdict.outcome() > Outcome::LooksRight, "{kicked}: {verdict}, {found:?}");
+        }
     }
 
     #[test]
