@@ -67,7 +67,7 @@ pub(super) struct RuleArgs {
     #[arg(long, value_name = "PART", conflicts_with = "scene", value_parser = part)]
     within: Option<f64>,
 
-    /// The language of the code: rust, c, cpp, csharp or gdscript
+    /// The language of the code: rust, c, cpp, csharp, gdscript, javascript or lua
     #[arg(long = "as", value_name = "LANGUAGE", default_value = Language::Rust.id())]
     #[arg(value_parser = LANGUAGE_OR_CPP, hide_possible_values = true)]
     language: Language,

@@ -39,7 +39,7 @@ pub(super) struct ShowArgs {
     #[arg(value_name = "METHOD|POLICY|FILE", value_parser = ITEM_OR_FILE, hide_possible_values = true)]
     asked: ShownItem,
 
-    /// The language: rust, c, cpp, csharp, gdscript or step
+    /// The language: rust, c, cpp, csharp, gdscript, javascript, lua or step
     ///
     /// Methods have all of them, with the same code in cpp and c. Loops have rust, and some cpp and csharp. `step` is
     /// the language of a method of your own, to change and give back.

@@ -41,14 +41,19 @@ async fn beside(found: Comparison, [own, truth]: [&BodyTruth; 2], tick_hz: TickR
     let frequency_error = swings
         .and_then(|(own, truth)| truth.frequency_error(&own.crossings))
         .map(|error| (1.0 + error) * (1.0 + own_frequency) - 1.0);
+    let shift = swings.map_or(0.0, |(own, truth)| own.lead_s(truth));
+    // Exact motions in two wells can have one width and one frequency, and be apart by more than a shift makes.
+    let is_of_phase = swings.is_none_or(|(_, truth)| {
+        distance.error <= TOLERANCE || truth.error_when(shift) >= distance.error / 2.0
+    });
     let is_alike = match width {
         Some(width) if swings.is_some() => {
             (width - 1.0).abs() <= VISIBLE
                 && frequency_error.is_none_or(|error| error.abs() <= FREQUENCY_TOLERANCE)
+                && is_of_phase
         }
         _ => error <= 2.0 * VISIBLE,
     };
-    let shift = swings.map_or(0.0, |(own, truth)| own.lead_s(truth));
     let is_shifted = found.early_s.is_some() || distance.error > TOLERANCE;
     Comparison {
         error,
@@ -64,7 +69,7 @@ async fn beside(found: Comparison, [own, truth]: [&BodyTruth; 2], tick_hz: TickR
             },
         ),
         early_s: Some(found.early_s.unwrap_or(0.0) + shift)
-            .filter(|_| is_shifted && swings.is_some()),
+            .filter(|_| is_shifted && is_of_phase && swings.is_some()),
         frequency_error: frequency_error.or(found.frequency_error),
         ..found
     }

@@ -396,6 +396,32 @@ mod tests {
     }
 
     #[test]
+    fn a_gain_after_a_placement_is_a_part_of_the_new_motion() {
+        for body in [
+            "[[spring]]\nmass_kg = 1\nstiffness_n_per_m = 40\nx0_m = 1\n",
+            "[[pendulum]]\nlength_m = 1\ntheta0_rad = 1\n",
+        ] {
+            let head = "title = 'x'\ntick_hz = 60\nseconds = 60\nmethods = ['explicit-euler']";
+            let scene = Scene::parse("x.toml", &format!("{head}\n{body}")).unwrap();
+            let mut race = Race::of_scene(&scene);
+            race.run(300);
+            race.perform(&Action::Place { body: 0, q: [0.1].into(), v: [0.0].into() }, &mut ());
+            let mut widest = 0.0_f64;
+            for _ in 0..240 {
+                race.step(&mut ());
+                widest = widest.max(race.truth().bodies()[0].stepper.kinetic_energy().unwrap());
+            }
+            let [lane, truth] = [&race.entrants()[0].lane.bodies()[0], &race.truth().bodies()[0]];
+            let gained = 100.0 * energy_gained_j(lane, truth).unwrap() / widest;
+            let found = measured("energy_drift", &race).unwrap();
+            assert!(
+                gained > 10.0 && (found / gained - 1.0).abs() < 0.02,
+                "{found} %, not {gained} %"
+            );
+        }
+    }
+
+    #[test]
     fn no_more_energy_is_lost_than_the_motion_has() {
         for body in [
             "[[spring]]\nmass_kg = 1\nstiffness_n_per_m = 40\nx0_m = 1\nv0_m_per_s = 6\n",

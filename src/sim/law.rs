@@ -28,16 +28,18 @@ mod tape;
 mod text;
 mod token;
 
+pub(crate) use expression::Expression;
 pub use expression::{MAX_BYTES, MAX_DEPTH};
 pub use fault::{ExpressionFault, LawFault, Part, Remedy};
+pub(crate) use op::Level;
 pub(in crate::sim) use registers::LawLanes;
 pub use registers::Registers;
 pub(crate) use step_text::{
-    AT_TARGET, Frame, NO_RETURN, Powers, SHARED_STEPS, SwitchKind, remembers_place,
+    AT_TARGET, Frame, Line, NO_RETURN, Operation, Powers, StepBody, SwitchKind, remembers_place,
 };
 pub use step_text::{
-    Carried, General, Input, LinearRule, MAX_STEP_BYTES, OwnLines, Request, RuleBody, StepCall,
-    StepCode, StepMap, StepRegisters, StepText,
+    Carried, Declares, General, Input, LinearRule, MAX_STEP_BYTES, MethodInput, OwnLines, Request,
+    RuleBody, StepCall, StepMap, StepRegisters, StepText,
 };
 pub use tape::MAX_OPERATIONS;
 pub use text::{CoordinateText, LawText, Layout};

@@ -38,12 +38,10 @@ pub fn own_method(id: &str, text: &str) -> Result<&'static Method, ExpressionFau
                 ),
             });
         }
-        let code = read.code().map(|code| code.method()).unwrap_or_default();
         let only = only(&read);
         let made = Method {
             only,
             about: "a method by lines of one's own",
-            code: code.leak(),
             source: "lines of one's own; this card is measured",
             ..card(id, OwnLines::Method(read))
         };

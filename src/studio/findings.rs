@@ -150,9 +150,9 @@ mod tests {
     use std::thread;
 
     use super::*;
-    use crate::measure::{Severity, Verdict};
+    use crate::measure::{Outcome, Severity, Verdict};
     use crate::scene::{Action, SCENES, Scene};
-    use crate::studio::{RunCommand, StageCommand, Studio};
+    use crate::studio::{Command, RunCommand, StageCommand, Studio};
 
     /// Seconds before and after a change of the run.
     const BEFORE_S: f64 = 1.5;
@@ -263,6 +263,30 @@ mod tests {
     }
 
     #[test]
+    fn a_motion_in_the_other_well_never_looks_right() {
+        for kicked in [87, 88, 89] {
+            let mut studio = Studio::new(Scene::built_in("duffing").unwrap());
+            let changes: [(u64, Command); 5] = [
+                (16, StageCommand::Pick(0).into()),
+                (58, StageCommand::Pick(1).into()),
+                (kicked, RunCommand::Act(Action::Kick(1.0)).into()),
+                (126, StageCommand::Pick(3).into()),
+                (172, StageCommand::TickHz(15.into()).into()),
+            ];
+            for (tick, change) in changes {
+                while studio.race().tick() < tick {
+                    studio.tick();
+                }
+                studio.apply(change);
+            }
+            let verdict = selected(&studio);
+            let found = verdict.comparison().expect("it has a truth");
+            assert!(found.error.is_finite() && found.error > 1.5, "{kicked}: {found:?}");
+            assert!(verdict.outcome() > Outcome::LooksRight, "{kicked}: {verdict}, {found:?}");
+        }
+    }
+
+    #[test]
     fn a_verdict_is_of_what_follows_the_last_change_of_the_run() {
         let mut studio = Studio::new(Scene::built_in("spring").unwrap());
         let said = |studio: &Studio| selected(studio).to_string();
@@ -279,7 +303,7 @@ mod tests {
         assert_eq!(verdict.outcome().severity(), Severity::Doubtful);
         studio.apply(StageCommand::Pick(0));
         assert_eq!(said(&studio), "grows · swing ×2 in 2.1 s");
-        assert_eq!(selected(&studio).details()[0], "already 1.9 × too wide");
+        assert_eq!(selected(&studio).details()[0], "1.9 × too wide at 2 s");
         studio.apply(StageCommand::ToggleRace);
         studio.analyse();
         let raced = studio.viewer.verdict(1).expect("it is judged").to_string();

@@ -25,7 +25,7 @@ pub static GESTURES: &[Gesture] = &[
     },
     Gesture {
         shown: "Right click a lane",
-        about: "its menu: \"Copy as Rust\", \"Copy as C#\", C, GDScript: the method's code; of an engine a spring's settings too",
+        about: "its menu: \"Copy as Rust\", \"Copy as C#\", C, GDScript, JavaScript, Lua: the method's code; of an engine a spring's settings too",
     },
     Gesture { shown: "Click a heading", about: "sort the table by it" },
     Gesture {

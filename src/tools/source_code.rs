@@ -1,65 +1,57 @@
 //! Prints the methods as source code for a game. For each method, it is one function of `x`, `v` and the step `h`, in
-//! each of four languages.
+//! each of six languages.
 //!
-//! A method is written once, in `assets/methods`, in a small language of its own with one statement per line, in which
-//! all values are numbers. The printer translates it line by line with the table of dialects, and makes the header from
-//! the method's card. `tests/library/source_code` compiles the printed functions and compares their steps with the
-//! method's.
+//! A method is written once, in `assets/methods`, in the language in which a person writes a step of their own; see
+//! [`StepText`]. The printer translates its lines one by one with the table of dialects, and makes the header from the
+//! method's card. `tests/library/source_code` runs the printed functions and compares their steps with the method's.
 //!
-//! | statement | meaning |
+//! Beside those of a step, a source has these lines, which only its header uses:
+//!
+//! | line | meaning |
 //! |---|---|
-//! | `takes a(x, v): about` | an input: a function of these or, without parentheses, a number; with a description |
-//! | `memory last_h = nan` | a number carried from step to step, with its value before the first |
-//! | `use solve` | the functions of `assets/methods/shared/solve.step` |
-//! | `fn solve(a(x, v), x) {` | a function that returns a number |
-//! | `const`, `let`, `var` | a constant, a number, a number that changes; `+=` and the like change it |
-//! | `count`, and `takes whole n` | a whole number that changes, and one that is an input |
-//! | `4e-15\|2e-6` | a number in double and in single precision |
-//! | `if … {`, `} else {`, `while … {`, `}` | with `and` and `or` |
-//! | `fail`, `stay` | ends the step with `x` and `v` not a number, or with their present values |
-//! | `stability: when`, and `order`, `symplectic` | replaces the card's sentence in the header |
-//! | `several: how`, `held: where` | the header's words on several coordinates, and on forces that depend on time |
+//! | `takes a(x, v): about` | an input, with a description; the remarks above it belong to the header |
+//! | `stability: when`, and `order`, `symplectic` | replaces the card's sentence |
+//! | `several: how`, `held: where` | the words on several coordinates, and on forces that depend on time |
 //! | `refused c: why`, `refused: why` | excludes the function from this language, or from all |
-//!
-//! A comment begins with `#`. Comments before the first statement belong to the header. A line that begins with an
-//! operator continues the line before.
 
 use std::fmt;
 
 use crate::sim::integrators::Method;
+pub use crate::sim::law::MethodInput;
+use crate::sim::law::StepText;
 
 pub use dialect::{Language, Precision};
-pub use program::MethodInput;
-use program::Program;
+pub(super) use printer::{RULE_STEP, rule_lines};
 
+mod declarations;
 mod dialect;
+mod expression;
 mod header;
-mod names;
 mod printer;
-mod program;
 
 /// The source of a method, for other games.
-pub struct MethodSource(Program<'static>);
+pub struct MethodSource(StepText);
 
 impl MethodSource {
-    /// Reads the source on a method's [card](Method::code); `None` if the card has no source.
+    /// Reads the lines of a method, which are on its [card](Method::code) or a person's own; `None` if it has none.
     pub fn of(method: &Method) -> Option<Self> {
-        (!method.code.is_empty()).then(|| Self(Program::read(method.code)))
+        let text = method.own_text().unwrap_or(method.code);
+        if text.is_empty() { None } else { StepText::read(text).ok().map(Self) }
     }
 
     /// Returns the function's inputs besides `x`, `v` and `h`.
-    pub fn inputs(&self) -> &[MethodInput<'static>] {
-        &self.0.inputs
+    pub fn inputs(&self) -> Vec<MethodInput<'_>> {
+        self.0.method_inputs()
     }
 
     /// Returns the source's own words for a claim of the card: `order`, `stability` or `symplectic`.
-    pub fn claim(&self, claim: &str) -> Option<&'static str> {
+    pub fn claim(&self, claim: &str) -> Option<&str> {
         self.0.claim(claim)
     }
 
     /// Whether the function keeps a memory between steps.
     pub fn has_memory(&self) -> bool {
-        !self.0.memory.is_empty()
+        self.0.carried().len() > 2
     }
 }
 
@@ -71,7 +63,7 @@ pub struct NoSourceCode {
     /// The language.
     pub language: Language,
     /// The reason, as a clause in lower case.
-    pub reason: &'static str,
+    pub reason: String,
 }
 
 impl std::error::Error for NoSourceCode {}
@@ -92,9 +84,9 @@ pub fn source_code(
     language: Language,
     precision: Precision,
 ) -> Result<String, NoSourceCode> {
-    let program = program(method, language, precision)?;
-    let header = header::lines(method, &program, language);
-    Ok(printer::print(method.id, &program, language, precision, &header))
+    let text = printable(method, language, precision)?;
+    let header = header::lines(method, &text, language);
+    Ok(printer::print(method.id, &text, language, precision, &header))
 }
 
 /// Returns the same function without the comment above it.
@@ -106,8 +98,8 @@ pub fn function_code(
     language: Language,
     precision: Precision,
 ) -> Result<String, NoSourceCode> {
-    let program = program(method, language, precision)?;
-    Ok(printer::print(method.id, &program, language, precision, &[]))
+    let text = printable(method, language, precision)?;
+    Ok(printer::print(method.id, &text, language, precision, &[]))
 }
 
 /// Returns the lines of a method's step, which can be changed and read again as a method. The lines of a method from
@@ -120,36 +112,41 @@ pub fn step_lines(method: &Method) -> Result<String, NoSourceCode> {
         return Ok(own.to_owned());
     }
     let language = Language::Rust;
-    let program = program(method, language, Precision::Double)?;
-    let header = header::lines(method, &program, language);
-    let header = header.iter().map(|line| format!("# {line}").trim_end().to_owned() + "\n");
+    let text = printable(method, language, Precision::Double)?;
+    let header = header::lines(method, &text, language).into_iter();
+    let header = header.map(|line| format!("# {line}").trim_end().to_owned() + "\n");
     Ok(header.collect::<String>() + "\n" + method.code)
 }
 
-/// Returns the function `rule` of a source, below a comment of these paragraphs.
+/// Returns the function `rule` of generated lines, below a comment of these paragraphs.
 ///
-/// # Panics
-/// If the source is malformed.
-pub(super) fn rule_code(text: &str, about: &[String], language: Language) -> String {
-    let program = Program::read(text);
-    let header = header::of_rule(about, &program, language);
-    printer::print("rule", &program, language, Precision::Double, &header)
+/// # Errors
+/// The reason why the lines cannot be printed, as a clause.
+pub(super) fn rule_code(
+    lines: &str,
+    about: &[String],
+    language: Language,
+) -> Result<String, String> {
+    let text = StepText::read_generated(lines).map_err(|fault| fault.what)?;
+    let header = header::of_rule(about, &text, language);
+    Ok(printer::print("rule", &text, language, Precision::Double, &header))
 }
 
-/// Returns the method's program, unless the language or the precision rules it out.
-fn program(
+/// Returns the lines of a method, unless the language or the precision rules them out.
+fn printable(
     method: &Method,
     language: Language,
     precision: Precision,
-) -> Result<Program<'static>, NoSourceCode> {
-    let refused = |reason| NoSourceCode { method: method.id, language, reason };
-    let source = MethodSource::of(method);
-    let source = source.ok_or(refused(match method.own_text() {
-        Some(_) => "a function that its lines call has no word there",
-        None => "it is a custom method, whose code is where it was made",
-    }))?;
-    match source.0.refusal(language).or(language.refusal(precision)) {
-        Some(reason) => Err(refused(reason)),
-        None => Ok(source.0),
+) -> Result<StepText, NoSourceCode> {
+    let refused =
+        |reason: &str| NoSourceCode { method: method.id, language, reason: reason.to_owned() };
+    let MethodSource(text) = MethodSource::of(method)
+        .ok_or_else(|| refused("it is a custom method, whose code is where it was made"))?;
+    let of_language = format!("refused {}", language.id());
+    let claims = [&*of_language, "refused"].into_iter().find_map(|claim| text.claim(claim));
+    let reason = claims.or_else(|| language.refusal(precision)).or_else(|| text.unwritable());
+    match reason.map(refused) {
+        Some(refused) => Err(refused),
+        None => Ok(text),
     }
 }

@@ -12,7 +12,7 @@ use regatta::tools::source_code::Language;
 use crate::compilers::{build_folder, compiled_or_skip};
 
 /// Linear rules: pairs of eigenvalues, real ones, close and double ones, and those without a rest.
-const LINEAR: [&str; 19] = [
+pub(crate) const LINEAR: [&str; 19] = [
     "v = (v + (target - x) * 0.2) * 0.85; x += v",
     "v += ((target - x) * 100 - v * 20) * dt; x += v * dt",
     "v += ((target - x) * 100 - v * 40) * dt; x += v * dt",
@@ -34,7 +34,7 @@ const LINEAR: [&str; 19] = [
     "x *= 0.9; v *= 0.5",
 ];
 /// Rules that are not, or have no closed form.
-const STEPPED: [&str; 7] = [
+pub(crate) const STEPPED: [&str; 7] = [
     "v -= v * abs(v) * 0.1; x += v * dt",
     "v += (target - x) * 40 * dt; if v > 1 { v = 1 } else if v < -1 { v = -1 }\nx += v * dt",
     "v -= sign(v) * min(abs(v), 3 * dt); x += v * dt",
@@ -45,7 +45,7 @@ const STEPPED: [&str; 7] = [
 ];
 
 pub(crate) const FPS: f64 = 60.0;
-const FRAMES: usize = 48;
+pub(crate) const FRAMES: usize = 48;
 pub(crate) const START: [f64; 2] = [0.25, 1.5];
 pub(crate) const TARGET: f64 = 2.0;
 /// The largest difference from the rule, as a part of the largest number of the run.
@@ -68,7 +68,7 @@ pub(crate) fn code(rule: &str, language: Language) -> RuleCode {
 }
 
 /// The steps of the driver, in frames.
-const PARTS: [f64; 3] = [1.0, 0.5, 2.0];
+pub(crate) const PARTS: [f64; 3] = [1.0, 0.5, 2.0];
 
 /// The driver's call of the function of rule `n` with its memory, and the lines around them in the language.
 fn rust() -> String {
@@ -159,7 +159,7 @@ fn c_sharp() -> String {
 }
 
 /// Compares the output of a driver with the rules: at every frame, every second half frame and every other frame.
-fn hold(driver: &mut Command) {
+pub(crate) fn hold(driver: &mut Command) {
     let output = driver.output().unwrap();
     assert!(output.status.success(), "{:?}", output.status);
     let text = String::from_utf8(output.stdout).unwrap();

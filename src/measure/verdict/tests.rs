@@ -98,7 +98,7 @@ fn a_lane_that_begins_off_the_truth_is_named_by_both_widths() {
     let found = Comparison { change: Trend::Grows, ..of(2.04, "m") };
     let grows = Verdict { long_term: grows, ..compared(found) };
     assert_eq!(grows.to_string(), "grows · swing ×2 in 2.1 s");
-    assert_eq!(grows.details()[0], "already 2.0 × too wide");
+    assert_eq!(grows.details()[0], "2.0 × too wide at 0 s");
     let right = Comparison { looks_right: Some(true), early_s: Some(0.02), ..of(1.04, "m") };
     assert_eq!(compared(right).to_string(), "looks right · 20 ms early after 20 s");
 }

@@ -84,12 +84,6 @@ impl Comparison {
             .then(|| format!("{} {how}", percent(error.abs())))
     }
 
-    /// Describes the width of a lane that was not in the true state at the start, if it is wrong.
-    fn already(&self) -> Option<String> {
-        let widths = self.widths.filter(|_| self.wrong_width().is_some())?;
-        Some(format!("already {}", too_wide(widths.own / widths.truth)))
-    }
-
     /// Returns the largest width of the swing relative to the true one, if the difference is visible.
     fn wrong_width(&self) -> Option<f64> {
         self.width.filter(|width| (width - 1.0).abs() > VISIBLE)
@@ -319,9 +313,11 @@ impl Verdict {
         already.into_iter().chain([self.line(is_named), word]).collect()
     }
 
-    /// Describes the wrong width with which a swing begins that does not stay at it.
+    /// Describes the wrong width with which a growing swing begins, with the moment: `2.0 × too wide at 3.0 s`.
     fn already(&self) -> Option<String> {
-        self.comparison().filter(|_| self.outcome() > Outcome::Bounded)?.already()
+        let found = self.comparison().filter(|_| self.outcome() > Outcome::Bounded)?;
+        let widths = found.widths.filter(|_| found.wrong_width().is_some())?;
+        Some(format!("{} at {}", too_wide(widths.own / widths.truth), self.moment(0.0)))
     }
 }
 

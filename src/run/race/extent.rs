@@ -60,7 +60,19 @@ impl Extent {
     /// exaggerate the drift.
     pub(crate) fn exchanged_j(&self, truth: &dyn Stepper) -> Option<f64> {
         let whole = truth.energy().filter(|_| truth.is_linear());
-        Some(self.range_j()?.max(whole.unwrap_or(0.0)))
+        let range = self.range_j()?;
+        // A larger range is that of the motion before a kick or a placement.
+        Some(
+            whole
+                .filter(|whole| range > whole * (1.0 + ROUNDING))
+                .unwrap_or(range)
+                .max(whole.unwrap_or(0.0)),
+        )
+    }
+
+    /// Forgets the energies of a motion that a kick or a placement ended.
+    pub(crate) fn forget_energy(&mut self) {
+        self.kinetic = None;
     }
 
     fn range_j(&self) -> Option<f64> {

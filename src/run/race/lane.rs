@@ -296,6 +296,7 @@ impl LaneBody {
         let is_taken = change(&mut *self.stepper);
         match check(&*self.stepper, &self.kind.all_coordinates) {
             Ok(()) => {
+                self.forget_energy();
                 self.add_moment();
                 if is_taken {
                     self.chase = Chase::new(&*self.stepper, t);
@@ -336,6 +337,7 @@ impl LaneBody {
             self.halted = Some(Halt { tick, t, body: index, failure });
         }
         self.store_previous();
+        self.forget_energy();
         self.add_moment();
         self.chase = Chase::new(&*self.stepper, t);
     }
@@ -350,6 +352,16 @@ impl LaneBody {
         let vectors = [&self.previous_q, &self.previous_v, q, v];
         let vectors = vectors.map(|vector| size_of_val(&vector[..])).iter().sum::<usize>();
         size_of::<Self>() + vectors + self.stepper.bytes(solver)
+    }
+
+    /// Forgets the energies of the true motion before a change of its state. A linear body tells the new one itself.
+    fn forget_energy(&mut self) {
+        let [q, v] = &self.before_input;
+        let is_moved = q[..] != *self.stepper.q() || v[..] != *self.stepper.v();
+        let is_linear = self.stepper.is_linear();
+        if let Some(extent) = self.extent.as_mut().filter(|_| is_moved && !is_linear) {
+            extent.forget_energy();
+        }
     }
 
     /// Extends the range of the true motion by the present state.

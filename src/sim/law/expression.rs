@@ -69,7 +69,7 @@ impl Node {
 
 /// An expression whose value is a number.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Expression {
+pub(crate) struct Expression {
     pub(super) nodes: Vec<Node>,
     /// The byte range of each node in the text.
     pub(super) spans: Vec<Range<usize>>,

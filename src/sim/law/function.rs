@@ -125,11 +125,13 @@ pub(super) static FUNCTIONS: [Function; 21] = [
 ];
 
 /// The functions of step lines that laws do not have.
-pub(super) static STEP_FUNCTIONS: [Function; 32] = [
+pub(super) static STEP_FUNCTIONS: [Function; 34] = [
     written("lerp", &["a", "b", "part"], "a + (b - a) * part"),
     function("pow", &["base", "exponent"], Meaning::Power),
     // Halves go away from 0.
     smooth("round", &["x"], |x, _| libm::round(x), |x, _| constant(libm::round(x[0]))),
+    unary!("sinh", |x| f = libm::sinh(x), [libm::cosh(x), f]),
+    unary!("cosh", |x| f = libm::cosh(x), [libm::sinh(x), f]),
     written("ceil", &["x"], "-floor(-x)"),
     written("trunc", &["x"], "sign(x) * floor(abs(x))"),
     written("fract", &["x"], "x - floor(x)"),

@@ -10,29 +10,31 @@ use std::ops::Range;
 use super::expression::Expression;
 use super::fault::{ExpressionFault, fault};
 use super::form::is_linear;
-use super::jet::Jet;
 pub(crate) use super::tape::SwitchKind;
 use super::tape::Tape;
-pub use code::StepCode;
 pub(crate) use linear::{AT_TARGET, Frame, NO_RETURN, remembers_place};
 pub use linear::{LinearRule, RuleBody};
+pub use map::StepMap;
 use method::{Function, Machine, Taken};
 pub use method::{General, Input, Request, StepCall};
 use paths::of_one_component;
 use plain::plain;
 pub(crate) use powers::Powers;
 use reader::Reader;
-pub(crate) use reader::SHARED_STEPS;
+pub use statements::Declares;
 use statements::statements;
+pub use tree::MethodInput;
+pub(crate) use tree::{Operation, StepBody};
 
-mod code;
 mod linear;
+mod map;
 mod method;
 mod paths;
 mod plain;
 mod powers;
 mod reader;
 mod statements;
+mod tree;
 
 /// The maximum number of bytes of a text, which is a few screens of lines.
 pub const MAX_STEP_BYTES: usize = 1 << 14;
@@ -82,11 +84,12 @@ const OTHER_NAMES: [(usize, &[&str]); 3] = [
 
 /// A line, with its names as indices among the inputs.
 #[derive(Debug)]
-enum Line {
+pub(crate) enum Line {
     Assign {
         name: usize,
         joins: &'static str,
         value: Expression,
+        declares: Option<Declares>,
     },
     If(Expression),
     Else,
@@ -97,6 +100,10 @@ enum Line {
     Stop {
         fails: bool,
     },
+    /// A remark on a line of its own.
+    Remark(String),
+    /// An empty line.
+    Blank,
 }
 
 /// A number carried from one step to the next.
@@ -107,6 +114,13 @@ pub struct Carried {
     /// The value of the number before the first step.
     pub start: f64,
     input: usize,
+}
+
+impl Carried {
+    /// Returns the index of the number among the names of the lines.
+    pub(crate) fn input(&self) -> usize {
+        self.input
+    }
 }
 
 /// The lines of a step, parsed.
@@ -124,6 +138,8 @@ pub struct StepText {
     /// The inputs that the text takes besides the acceleration and the target.
     inputs: Vec<Taken>,
     functions: Vec<Function>,
+    /// The remarks above the inputs.
+    notes: Vec<String>,
     /// Whether a step depends on the velocity before it.
     reads_velocity: bool,
     machine: Machine,
@@ -140,15 +156,6 @@ pub struct StepRegisters {
     answer: Vec<f64>,
     /// For each level of blocks, whether each coordinate runs it.
     masks: Vec<bool>,
-}
-
-/// The carried numbers after a step, and their derivatives with respect to each carried number and then the target.
-#[derive(Clone, Debug, PartialEq)]
-pub struct StepMap {
-    /// The carried numbers, in the order of [`StepText::carried`].
-    pub values: Vec<f64>,
-    /// One column of derivatives per carried number, then one for the target.
-    pub columns: Vec<Vec<f64>>,
 }
 
 /// Lines of a person's own that step a body.
@@ -181,9 +188,18 @@ impl StepText {
             let what = format!("the text has {} bytes", text.len());
             return fault(end..text.len(), what, format!("keep at most {MAX_STEP_BYTES}"));
         }
+        Self::read_lines(text, None)
+    }
+
+    /// Reads the lines of a printer, of which a rule may have loops.
+    pub(crate) fn read_generated(text: &str) -> Result<Self, ExpressionFault> {
+        Self::read_lines(text, Some(0..0))
+    }
+
+    fn read_lines(text: &str, method_at: Option<Range<usize>>) -> Result<Self, ExpressionFault> {
         let (plain, components) = plain(text);
-        let (statements, left_out) = of_one_component(statements(&plain)?, &components)?;
-        let read = Reader::read(&plain, &statements)?;
+        let (statements, left_out) = of_one_component(statements(&plain, text)?, &components)?;
+        let read = Reader::read(&plain, method_at, &statements)?;
         Ok(Self { source: text.to_owned(), left_out, ..read }.timed())
     }
 
@@ -289,55 +305,6 @@ impl StepText {
     /// Sets a carried number of a body.
     pub fn set(&self, registers: &mut StepRegisters, index: usize, value: f64) {
         registers.slots[self.carried[index].input] = value;
-    }
-
-    /// Returns the map of a step of `h` seconds at these carried numbers and this target, with its exact derivatives.
-    pub fn map(&self, h: f64, at: &[f64], target: f64) -> StepMap {
-        self.map_on(&[], h, at, target)
-    }
-
-    /// Returns the map on the piece with these modes of the switches, continued beyond its boundaries.
-    pub(crate) fn map_on(&self, modes: &[i64], h: f64, at: &[f64], target: f64) -> StepMap {
-        let inputs = self.carried.iter().map(|carried| carried.input).chain([TARGET]);
-        let mut slots: Vec<Jet> = vec![[0.0; 3]; self.tape.slots];
-        let mut values = Vec::new();
-        let mut column = |input: usize| {
-            slots[H] = [h, 0.0, 0.0];
-            slots[TARGET] = [target, 0.0, 0.0];
-            for (carried, value) in self.carried.iter().zip(at) {
-                slots[carried.input] = [*value, 0.0, 0.0];
-            }
-            slots[input][1] = 1.0;
-            self.tape.evaluate_jets_on(modes, &mut slots);
-            let outputs = self.tape.outputs.iter().map(|slot| slots[*slot as usize]);
-            values = outputs.clone().map(|[value, ..]| value).collect();
-            outputs.map(|[_, slope, _]| slope).collect()
-        };
-        let columns = inputs.map(&mut column).collect();
-        StepMap { values, columns }
-    }
-}
-
-impl StepText {
-    /// Returns the modes of the switches in a step of `h` seconds from these carried numbers.
-    pub(crate) fn modes(&self, h: f64, at: &[f64], target: f64) -> Vec<i64> {
-        let mut slots = vec![0.0; self.tape.slots];
-        (slots[H], slots[TARGET]) = (h, target);
-        for (carried, value) in self.carried.iter().zip(at) {
-            slots[carried.input] = *value;
-        }
-        self.tape.prepare::<1>(slots.as_chunks_mut().0);
-        self.tape.evaluate(&mut slots);
-        let mut modes = vec![0; self.tape.switches()];
-        self.tape.write_modes(&slots, &mut modes);
-        modes
-    }
-
-    /// Returns the source of each switch of the lines, with its kind.
-    pub(crate) fn switches(&self) -> impl Iterator<Item = (SwitchKind, &str)> {
-        self.tape
-            .switch_origins()
-            .map(|(kind, span)| (kind, self.source.get(span.clone()).unwrap_or_default().trim()))
     }
 }
 
@@ -559,7 +526,8 @@ mod tests {
                     text.step_method(&mut registers, 0.1, moved, |_, _, [x, _], a| {
                         a.copy_from_slice(x)
                     });
-                    let _ = (text.map(0.1, &vec![0.5; text.carried().len()], 1.0), text.code());
+                    let _ =
+                        (text.map(0.1, &vec![0.5; text.carried().len()], 1.0), text.unwritable());
                 }
                 Err(fault) => assert!(text.get(fault.span).is_some(), "{text}"),
             }

@@ -3,8 +3,8 @@
 use nalgebra::{Matrix2, Vector2};
 
 use super::{Piece, Rule};
-use crate::sim::law::{AT_TARGET, Frame, NO_RETURN, Powers, StepCode, SwitchKind};
-use crate::tools::source_code::{Language, rule_code};
+use crate::sim::law::{AT_TARGET, Frame, NO_RETURN, Powers, SwitchKind};
+use crate::tools::source_code::{Language, RULE_STEP, rule_code, rule_lines};
 
 /// If the logarithms of the eigenvalues are this far apart, the code has two exponentials. If they are closer, the
 /// difference of the exponentials would be rounding.
@@ -59,7 +59,7 @@ impl Rule {
                 if self.state.len() > 1 && self.state.contains(&1) && !self.takes_step() {
                     about.push(format!("v is in units per frame of 1/{fps} s, as in the rule."));
                 }
-                Ok(RuleCode { text: rule_code(&source, &about, language), steps_because: None })
+                Ok(RuleCode { text: rule_code(&source, &about, language)?, steps_because: None })
             }
             Err(because) => {
                 let source = self.fixed_steps()?;
@@ -67,19 +67,22 @@ impl Rule {
                 about.push(format!(
                     "Fixed steps: {reason}. Draw memory.shown, which lies between the last two steps."
                 ));
-                let text = rule_code(&source, &about, language);
+                let text = rule_code(&source, &about, language)?;
                 Ok(RuleCode { text, steps_because: Some(reason) })
             }
         }
     }
 
-    /// Returns the names of the two numbers in the source.
+    /// Returns the name of each carried number in the source.
     fn names(&self) -> Vec<String> {
-        let name = |index: &usize| match index {
-            0 | 1 => self.text.carried()[*index].name.clone(),
-            _ => format!("memory.{}", self.text.carried()[*index].field()),
-        };
-        self.state.iter().map(name).collect()
+        let (_, names) = rule_lines(&self.text);
+        self.text.carried().iter().map(|carried| names[carried.input()].clone()).collect()
+    }
+
+    /// Returns the names of the numbers that move.
+    fn state_names(&self) -> Vec<String> {
+        let names = self.names();
+        self.state.iter().map(|index| names[*index].clone()).collect()
     }
 
     /// Returns the declarations before the first line, which are the target and the carried numbers besides x and v.
@@ -88,9 +91,10 @@ impl Rule {
         if takes_target {
             head += "takes target: where it goes\n";
         }
+        let names = self.names();
         for index in carried.filter(|index| *index > 1) {
-            let carried = &self.text.carried()[index];
-            head += &format!("memory {} = {:?}\n", carried.field(), carried.start);
+            let name = names[index].trim_start_matches("memory.");
+            head += &format!("memory {name} = {:?}\n", self.text.carried()[index].start);
         }
         head + "\n"
     }
@@ -144,17 +148,16 @@ impl Rule {
             let lines = piece.rule.first_order(&frame).ok()?;
             (chases && frame.offset.x == 0.0).then(|| lines.concat())
         };
-        let code = self.text.code().ok()?.lines;
-        let condition =
-            code.first()?.strip_prefix("if ").filter(|it| !it.contains(StepCode::STEP))?;
+        let (lines, _) = rule_lines(&self.text);
+        let mut lines = lines.iter().filter(|line| !line.starts_with('#'));
+        let condition = lines.next()?.strip_prefix("if ").filter(|it| !it.contains(RULE_STEP))?;
         let [first, second] = [line(first)?, line(second)?];
         let head = self.head(true, self.state.iter().copied());
         Some(format!("{head}if {condition}\n    {first}\n}} else {{\n    {second}\n}}\n"))
     }
 
     fn first_order(&self, frame: &Frame) -> Result<Vec<String>, NoClosedForm> {
-        let names = self.names();
-        let x = &names[0];
+        let x = &self.names()[self.state[0]];
         let (kept, by_target, offset) = (frame.map.m11, frame.by_target.x, frame.offset.x);
         if kept <= 0.0 {
             return Err(NoClosedForm::Flips);
@@ -175,7 +178,7 @@ impl Rule {
 
     /// Returns the closed form if one eigenvalue is 1.
     fn coasting(&self, frame: &Frame) -> Result<Vec<String>, NoClosedForm> {
-        let (names, fps) = (self.names(), self.fps);
+        let (names, fps) = (self.state_names(), self.fps);
         let kept = frame.map.trace() - 1.0;
         if frame.by_target != Vector2::zeros() {
             return Err(NoClosedForm::Drifts);
@@ -218,7 +221,7 @@ impl Rule {
     }
 
     fn swinging(&self, frame: &Frame) -> Result<Vec<String>, NoClosedForm> {
-        let (names, fps, map) = (self.names(), self.fps, frame.map);
+        let (names, fps, map) = (self.state_names(), self.fps, frame.map);
         let (half, determinant) = (map.trace() / 2.0, map.determinant());
         let powers = Powers::of(map.trace(), determinant).ok_or(NoClosedForm::Flips)?;
         let Powers { log_scale, apart, swings } = powers;
@@ -263,20 +266,19 @@ impl Rule {
     }
 
     fn fixed_steps(&self) -> Result<String, String> {
-        let StepCode { functions, lines, .. } = self.text.code()?;
-        let shown = &self.names()[0];
+        if let Some(reason) = self.text.unwritable() {
+            return Err(reason.to_owned());
+        }
+        let (lines, _) = rule_lines(&self.text);
+        let shown = &self.state_names()[0];
         let mut source =
             "memory unspent = 0.0\nmemory before = nan\nmemory shown = nan\n".to_owned();
         source += &self.head(self.text.takes_target(), 0..self.text.carried().len());
-        functions.iter().for_each(|function| source += &format!("{function}\n"));
-        let is_part = |c: char| c.is_ascii_alphanumeric() || c == '_';
-        let place = |line: &String| line.split(|c| !is_part(c)).position(|it| it == StepCode::STEP);
-        let step = if lines.iter().any(|line| place(line) == Some(0)) { "var" } else { "let" };
-        let reads = lines.iter().any(|line| place(line).is_some());
-        let step = reads.then(|| match self.units {
-            1.0 => format!("{step} {} = FRAME_S", StepCode::STEP),
-            units => format!("{step} {} = FRAME_S * {units:?}", StepCode::STEP),
-        });
+        let units = match self.units {
+            1.0 => String::new(),
+            units => format!(" * {units:?}"),
+        };
+        let step = self.text.reads_step().then(|| format!("let {RULE_STEP} = FRAME_S{units}"));
         let lines: Vec<String> =
             step.into_iter().chain(lines).map(|line| format!("    {line}")).collect();
         Ok(source

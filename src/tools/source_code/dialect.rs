@@ -14,12 +14,22 @@ pub enum Language {
     CSharp,
     /// GDScript of Godot 4.
     GdScript,
+    /// JavaScript, from version 2015.
+    JavaScript,
+    /// Lua from version 5.1, which is also valid Luau.
+    Lua,
 }
 
 impl Language {
     /// All languages.
-    pub const ALL: [Language; 4] =
-        [Language::Rust, Language::C, Language::CSharp, Language::GdScript];
+    pub const ALL: [Language; 6] = [
+        Language::Rust,
+        Language::C,
+        Language::CSharp,
+        Language::GdScript,
+        Language::JavaScript,
+        Language::Lua,
+    ];
 
     /// Returns the language's id, which is one lower-case word.
     pub fn id(self) -> &'static str {
@@ -28,6 +38,8 @@ impl Language {
             Language::C => "c",
             Language::CSharp => "csharp",
             Language::GdScript => "gdscript",
+            Language::JavaScript => "javascript",
+            Language::Lua => "lua",
         }
     }
 
@@ -38,13 +50,16 @@ impl Language {
             Language::C => "C",
             Language::CSharp => "C#",
             Language::GdScript => "GDScript",
+            Language::JavaScript => "JavaScript",
+            Language::Lua => "Lua",
         }
     }
 
     /// Returns the reason why the language cannot compute in this precision, if it cannot.
     pub(super) fn refusal(self, precision: Precision) -> Option<&'static str> {
-        (self == Language::GdScript && precision == Precision::Single)
-            .then_some("its `float` has double precision always")
+        let is_double_only = self.dialect().types[0] == self.dialect().types[1];
+        (is_double_only && precision == Precision::Single)
+            .then_some("its numbers have double precision always")
     }
 
     pub(super) fn dialect(self) -> &'static Dialect {
@@ -53,11 +68,34 @@ impl Language {
             Language::C => &C,
             Language::CSharp => &C_SHARP,
             Language::GdScript => &GD_SCRIPT,
+            Language::JavaScript => &JAVA_SCRIPT,
+            Language::Lua => &LUA,
         }
     }
 }
 
 impl Dialect {
+    /// Returns the spelling of a word or a sign of the language of steps.
+    pub(super) fn word(&self, word: &'static str) -> &'static str {
+        self.words.iter().find(|(ours, _)| *ours == word).map_or(word, |(_, theirs)| theirs)
+    }
+
+    /// Whether the language lacks this function of the language of steps.
+    pub(super) fn writes_out(&self, function: &str) -> bool {
+        self.written_out.contains(&function)
+    }
+
+    /// Whether a name has a meaning of its own in the language.
+    pub(super) fn is_reserved(&self, name: &str) -> bool {
+        self.reserved.split_whitespace().any(|word| word == name)
+            || self.words.iter().any(|(_, word)| word.trim_end_matches("SUFFIX") == name)
+    }
+
+    /// Returns a line break within an expression.
+    pub(super) fn broken_line(&self) -> String {
+        format!("{}\n{}", self.line_break, self.indent)
+    }
+
     /// Returns the type of a number.
     pub(super) fn type_in(&self, precision: Precision) -> &'static str {
         self.types[precision as usize]
@@ -118,10 +156,55 @@ pub(super) struct Dialect {
     pub(super) return_value: &'static str,
     /// Template for the value at the end of a function.
     pub(super) last_value: &'static str,
-    /// Words that are spelt differently from the sources, each with its spelling.
+    /// The sign between the memory and a field of it.
+    pub(super) member: &'static str,
+    /// The sign between a function that was handed over and its arguments.
+    pub(super) call: &'static str,
+    /// The last argument of such a call.
+    pub(super) user: &'static str,
+    /// The sign before a function that is handed on.
+    pub(super) reference: &'static str,
+    /// Whether the language has `+=` and the like.
+    pub(super) is_compound: bool,
+    /// Returns a name in the case of the language.
+    pub(super) spelt: fn(&str) -> String,
+    /// Returns the name of a function from that of the method and its own.
+    pub(super) function_name: fn(&str, &str) -> String,
+    /// Functions of the language of steps that the language lacks.
+    pub(super) written_out: &'static [&'static str],
+    /// Words that are spelt differently from the sources, each with its spelling. In an operator, `{a}` and `{b}` are
+    /// the arguments of the function.
     pub(super) words: &'static [(&'static str, &'static str)],
     /// Names that mean something else in the language, or in the code around the lines, between blanks.
     pub(super) reserved: &'static str,
+}
+
+/// Functions that no language has, or not with these bits.
+const ALL_LACK: [&str; 4] = ["sign", "step", "round", "hypot"];
+
+/// Converts `adams_bashforth_2` to `AdamsBashforth2`.
+pub(super) fn pascal(snake: &str) -> String {
+    let capital = |word: &str| {
+        let (first, rest) = word.split_at(word.len().min(1));
+        first.to_uppercase() + &rest.to_lowercase()
+    };
+    snake.split('_').map(capital).collect()
+}
+
+/// Converts `last_h` to `lastH`, and keeps a name in capitals.
+fn camel(snake: &str) -> String {
+    if snake.starts_with('_') || !snake.chars().any(|c| c.is_ascii_lowercase()) {
+        return snake.to_owned();
+    }
+    let pascal = pascal(snake);
+    let (first, rest) = pascal.split_at(pascal.len().min(1));
+    first.to_lowercase() + rest
+}
+
+/// Converts `last_h` to `lastH`, and a constant such as `MIN_H` to `MinH`.
+fn c_sharp_name(snake: &str) -> String {
+    let is_constant = !snake.starts_with('_') && !snake.chars().any(|c| c.is_ascii_lowercase());
+    if is_constant { pascal(snake) } else { camel(snake) }
 }
 
 const RUST: Dialect = Dialect {
@@ -143,6 +226,14 @@ const RUST: Dialect = Dialect {
     line_break: "",
     return_value: "return VALUE;",
     last_value: "VALUE",
+    member: ".",
+    call: "",
+    user: "",
+    reference: "&",
+    is_compound: true,
+    spelt: str::to_owned,
+    function_name: |method, name| format!("{method}_{name}"),
+    written_out: &ALL_LACK,
     words: &[
         ("and", "&&"),
         ("or", "||"),
@@ -184,6 +275,9 @@ const C: Dialect = Dialect {
     variable: "TYPE NAME = VALUE;",
     counter: "int NAME = VALUE;",
     last_value: "return VALUE;",
+    member: "->",
+    user: ", user",
+    reference: "",
     if_block: "if (VALUE) {",
     while_block: "while (VALUE) {",
     words: &[
@@ -233,6 +327,10 @@ const C_SHARP: Dialect = Dialect {
     if_block: "if (VALUE)\n{",
     else_block: "}\nelse\n{",
     while_block: "while (VALUE)\n{",
+    member: ".",
+    user: "",
+    spelt: c_sharp_name,
+    function_name: |_, name| pascal(name),
     words: &[
         ("and", "&&"),
         ("or", "||"),
@@ -287,10 +385,137 @@ const GD_SCRIPT: Dialect = Dialect {
     line_break: " \\",
     return_value: "return VALUE",
     last_value: "return VALUE",
+    member: ".",
+    call: ".call",
+    user: "",
+    reference: "",
+    is_compound: true,
+    spelt: str::to_owned,
+    function_name: |method, name| format!("{method}_{name}"),
+    written_out: &ALL_LACK,
     words: &[("nan", "NAN"), ("abs", "absf"), ("min", "minf"), ("max", "maxf"), ("ln", "log")],
     reserved: "and as assert await bool break breakpoint class class_name const continue elif else enum extends false float \
                for func if in int is match namespace not null or pass preload return self signal static super trait true \
                var void when while yield PI TAU INF NAN absf maxf minf log sqrt exp pow ceil floor sin cos tan asin acos \
                atan atan2 sinh cosh tanh is_nan call callv connect disconnect free get get_class get_meta get_script \
                has_method has_signal is_class new notification script set set_meta set_script tr tr_n",
+};
+
+const JAVA_SCRIPT: Dialect = Dialect {
+    indent: "  ",
+    types: [""; 2],
+    converted: "NAME",
+    whole: "",
+    constant: "const NAME = VALUE;",
+    number: "const NAME = VALUE;",
+    variable: "let NAME = VALUE;",
+    counter: "let NAME = VALUE;",
+    last_value: "return VALUE;",
+    if_block: "if (VALUE) {",
+    while_block: "while (VALUE) {",
+    reference: "",
+    spelt: camel,
+    function_name: |method, name| camel(&format!("{method}_{name}")),
+    words: &[
+        ("and", "&&"),
+        ("or", "||"),
+        ("not", "!"),
+        ("==", "==="),
+        ("!=", "!=="),
+        ("nan", "NaN"),
+        ("is_nan", "Number.isNaN"),
+        ("abs", "Math.abs"),
+        ("min", "Math.min"),
+        ("max", "Math.max"),
+        ("sqrt", "Math.sqrt"),
+        ("pow", "Math.pow"),
+        ("exp", "Math.exp"),
+        ("ceil", "Math.ceil"),
+        ("floor", "Math.floor"),
+        ("ln", "Math.log"),
+        ("sin", "Math.sin"),
+        ("cos", "Math.cos"),
+        ("tan", "Math.tan"),
+        ("asin", "Math.asin"),
+        ("acos", "Math.acos"),
+        ("atan", "Math.atan"),
+        ("atan2", "Math.atan2"),
+        ("sinh", "Math.sinh"),
+        ("cosh", "Math.cosh"),
+        ("tanh", "Math.tanh"),
+    ],
+    reserved: "arguments await break case catch class const continue debugger default delete do else enum eval export extends \
+               false finally for function if implements import in instanceof interface let new null package private \
+               protected public return static super switch this throw true try typeof undefined var void while with yield \
+               Infinity Math NaN Number",
+    ..RUST
+};
+
+const LUA: Dialect = Dialect {
+    comment: "--",
+    indent: "    ",
+    types: [""; 2],
+    converted: "NAME",
+    whole: "",
+    constant: "local NAME = VALUE",
+    number: "local NAME = VALUE",
+    variable: "local NAME = VALUE",
+    counter: "local NAME = VALUE",
+    assignment: "VALUE",
+    if_block: "if VALUE then",
+    else_block: "else",
+    while_block: "while VALUE do",
+    end: "end",
+    return_value: "return VALUE",
+    last_value: "return VALUE",
+    reference: "",
+    is_compound: false,
+    written_out: &["sign", "step", "round", "hypot", "sinh", "cosh", "tanh"],
+    words: &[
+        ("!=", "~="),
+        ("nan", "(0 / 0)"),
+        ("is_nan", "({a} ~= {a})"),
+        ("abs", "math.abs"),
+        ("min", "math.min"),
+        ("max", "math.max"),
+        ("sqrt", "math.sqrt"),
+        ("pow", "({a} ^ {b})"),
+        ("exp", "math.exp"),
+        ("ceil", "math.ceil"),
+        ("floor", "math.floor"),
+        ("ln", "math.log"),
+        ("sin", "math.sin"),
+        ("cos", "math.cos"),
+        ("tan", "math.tan"),
+        ("asin", "math.asin"),
+        ("acos", "math.acos"),
+        ("atan", "math.atan"),
+        // `atan2` went with version 5.3, in which `atan` has two arguments.
+        ("atan2", "(math.atan2 or math.atan)"),
+    ],
+    reserved: "and break continue do else elseif end export false for function goto if in local nil not or repeat return self \
+               then true type until while math",
+    ..RUST
+};
+
+/// The language of steps itself, with the names of the code around the lines of a rule.
+pub(super) const STEP: Dialect = Dialect {
+    comment: "#",
+    types: [""; 2],
+    converted: "NAME",
+    constant: "const NAME = VALUE",
+    number: "let NAME = VALUE",
+    variable: "var NAME = VALUE",
+    counter: "count NAME = VALUE",
+    assignment: "VALUE",
+    if_block: "if VALUE {",
+    while_block: "while VALUE {",
+    return_value: "return VALUE",
+    last_value: "return VALUE",
+    reference: "",
+    written_out: &[],
+    words: &[],
+    reserved: "FRAME_S before const count else fail fn if is_nan let memory nan refused return shown stay step_s takes unspent \
+               use var while",
+    ..RUST
 };

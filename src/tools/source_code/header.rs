@@ -1,8 +1,9 @@
 //! The comment above a method's function, with the description and the limits of the method, from its card.
 
 use super::dialect::Language;
-use super::program::{MethodInput, Program};
+use super::printer::takes_function;
 use crate::sim::integrators::{Engine, Family, Method};
+use crate::sim::law::{MethodInput, StepBody, StepText};
 
 /// Width of the comment, in characters.
 const WIDTH: usize = 96;
@@ -11,19 +12,19 @@ const WIDTH: usize = 96;
 const SOLVERS: [&str; 2] = ["slope", "solve"];
 
 /// Returns the lines of the comment above a method's function.
-pub(super) fn lines(method: &Method, program: &Program<'_>, language: Language) -> Vec<String> {
-    let claim = |id: &str, general: String| program.claim(id).map_or(general, Into::into);
+pub(super) fn lines(method: &Method, text: &StepText, language: Language) -> Vec<String> {
+    let claim = |id: &str, general: String| text.claim(id).map_or(general, Into::into);
     let (order, stability) =
-        (claim("order", order(method)), claim("stability", stability(method, program)));
+        (claim("order", order(method)), claim("stability", stability(method, text)));
     let symplectic = claim("symplectic", symplectic(method).into());
     let mut paragraphs = vec![
         format!("{} ({}): {}.", method.name, method.id, method.about),
         format!("Source: {}.", method.source),
         String::new(),
-        format!("Order: {order}. Evaluations per step: {}.", evaluations(method, program)),
+        format!("Order: {order}. Evaluations per step: {}.", evaluations(method, text)),
         format!("Stability: {stability}."),
         format!("Symplectic: {symplectic}. Reversible: {}.", yes(method.reversible)),
-        format!("Memory: {}.", memory(method, program)),
+        format!("Memory: {}.", memory(method, text)),
     ];
     if let Some(tolerance) = method.tolerance {
         let of_x = match tolerance.absolute_q.is_finite() {
@@ -35,10 +36,11 @@ pub(super) fn lines(method: &Method, program: &Program<'_>, language: Language) 
     if !method.keeps_time {
         paragraphs.push("Time: a step may advance by less than h, and does not say so.".into());
     }
-    paragraphs.extend(program.notes.iter().map(|note| (*note).to_owned()));
+    paragraphs.extend(text.notes().iter().cloned());
     paragraphs.push(String::new());
-    let solves = program.functions.iter().any(|function| SOLVERS.contains(&function.name));
-    let several = match (program.takes("force"), solves) {
+    let mut functions = text.functions().filter_map(StepBody::function);
+    let solves = functions.any(|function| SOLVERS.contains(&function));
+    let several = match (takes(text, "force"), solves) {
         // An engine is known only by its inputs, so the header promises nothing about several coordinates.
         (true, _) => String::new(),
         (false, false) => "; for several that feel each other, make them vectors".into(),
@@ -46,32 +48,41 @@ pub(super) fn lines(method: &Method, program: &Program<'_>, language: Language) 
                           linear system"
             .into(),
     };
-    let several = program.claim("several").map_or(several, |own| format!("; {own}"));
+    let several = text.claim("several").map_or(several, |own| format!("; {own}"));
     let state = format!("x, v: position and velocity of one coordinate{several}.");
     paragraphs.extend([state, "h: the step, in seconds.".into()]);
-    paragraphs.extend(program.inputs.iter().map(input));
-    if program.takes("a") {
+    paragraphs.extend(text.method_inputs().iter().map(input));
+    if takes(text, "a") {
         let held = "in its middle, t + h / 2; the order is then 2 at most".to_owned();
         paragraphs.push(format!(
             "Forces that depend on time: a is not told it; hold them for the step at their value {}.",
             claim("held", held)
         ));
     }
-    paragraphs.push(answer(language, program));
+    paragraphs.push(answer(language, text));
     paragraphs.iter().flat_map(|paragraph| wrapped(paragraph)).collect()
 }
 
 /// Returns the lines of the comment above a rule's function.
-pub(super) fn of_rule(about: &[String], program: &Program<'_>, language: Language) -> Vec<String> {
+pub(super) fn of_rule(about: &[String], text: &StepText, language: Language) -> Vec<String> {
     let mut paragraphs = about.to_vec();
     paragraphs.push(String::new());
     paragraphs.push("h: the time since the last call, in seconds.".into());
-    paragraphs.extend(program.inputs.iter().map(input));
-    if !program.memory.is_empty() {
+    paragraphs.extend(text.method_inputs().iter().map(input));
+    if !has_no_memory(text) {
         paragraphs.push("Memory: one for each value; make a new one after a jump.".into());
     }
-    paragraphs.push(answer(language, program));
+    paragraphs.push(answer(language, text));
     paragraphs.iter().flat_map(|paragraph| wrapped(paragraph)).collect()
+}
+
+/// Whether the step has an input with this name.
+fn takes(text: &StepText, name: &str) -> bool {
+    text.method_inputs().iter().any(|input| input.name == name)
+}
+
+fn has_no_memory(text: &StepText) -> bool {
+    text.carried().len() == 2
 }
 
 fn order(method: &Method) -> String {
@@ -90,9 +101,9 @@ fn order(method: &Method) -> String {
     }
 }
 
-fn evaluations(method: &Method, program: &Program<'_>) -> String {
+fn evaluations(method: &Method, text: &StepText) -> String {
     match (method.evaluations, method.restart) {
-        (Some(count), _) if program.takes("substeps") => format!("{count}, whatever the substeps"),
+        (Some(count), _) if takes(text, "substeps") => format!("{count}, whatever the substeps"),
         (Some(count), _) if method.is_engine() => count.to_string(),
         (Some(count), None) => count.to_string(),
         (Some(count), Some(_)) => format!("{count}, and one more at the first"),
@@ -100,8 +111,8 @@ fn evaluations(method: &Method, program: &Program<'_>) -> String {
     }
 }
 
-fn stability(method: &Method, program: &Program<'_>) -> String {
-    let of_substeps = if program.takes("substeps") { " times the substeps" } else { "" };
+fn stability(method: &Method, text: &StepText) -> String {
+    let of_substeps = if takes(text, "substeps") { " times the substeps" } else { "" };
     match (method.family, method.stability_limit) {
         (Family::Engine, None) => {
             "an undamped spring, as a joint, stays bounded at any step".into()
@@ -133,8 +144,8 @@ fn symplectic(method: &Method) -> &'static str {
     }
 }
 
-fn memory(method: &Method, program: &Program<'_>) -> String {
-    if program.memory.is_empty() {
+fn memory(method: &Method, text: &StepText) -> String {
+    if has_no_memory(text) {
         return "none".into();
     }
     if method.is_engine() {
@@ -158,16 +169,16 @@ fn input(input: &MethodInput<'_>) -> String {
 }
 
 /// Returns a sentence on the form of the function's result.
-fn answer(language: Language, program: &Program<'_>) -> String {
-    let takes_function = program.inputs.iter().any(|input| !input.arguments.is_empty());
+fn answer(language: Language, text: &StepText) -> String {
     match language {
         Language::Rust => "Returns the new x and v.".into(),
-        Language::C if takes_function => {
+        Language::C if takes_function(&text.method_inputs()) => {
             "Replaces position and velocity, and hands `user` on to what it calls.".into()
         }
         Language::C => "Replaces position and velocity.".into(),
         Language::CSharp => "Replaces x and v.".into(),
-        Language::GdScript => "Returns [x, v].".into(),
+        Language::GdScript | Language::JavaScript => "Returns [x, v].".into(),
+        Language::Lua => "Returns the new x and v.".into(),
     }
 }
 

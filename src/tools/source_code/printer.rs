@@ -1,66 +1,114 @@
-//! Prints a program in a language, line by line.
+//! Prints a step in a language, line by line.
 
-use std::collections::BTreeMap;
-
-use super::dialect::{Dialect, Language, Precision};
-use super::names::{Names, is_reserved, pascal, spellings, takes_function};
-use super::program::{Function, Line, MethodInput, Program, whole_numbers};
+use super::declarations::{Declaration, declarations};
+use super::dialect::{Dialect, Language, Precision, pascal};
+use super::expression::{Names, Spellings, spellings};
+use crate::sim::law::{Level, Line, MethodInput, StepBody, StepText};
 use crate::sim::text::hides_or_breaks;
 
 /// Maximum length of a line, in characters. A longer line is broken at its commas.
 const LINE_CHARS: usize = 100;
 
-/// Prints the program of the method `id` below its header.
+/// Functions that some languages lack, above a line that makes them a text.
+const WRITTEN_OUT: &str =
+    concat!(include_str!("../../../assets/methods/shared/functions.step"), "\nx += v\n");
+
+/// The names of every step, by their indices.
+const X: usize = 0;
+const V: usize = 1;
+const H: usize = 2;
+
+/// Prints the step of the method `id` below its header.
 pub(super) fn print(
     id: &str,
-    program: &Program<'_>,
+    text: &StepText,
     language: Language,
     precision: Precision,
     header: &[String],
 ) -> String {
-    let spellings = spellings(program, language);
-    let text = String::new();
-    let mut printer = Printer { id, program, language, precision, spellings, text, depth: 0 };
+    let dialect = language.dialect();
+    let mut snake = id.replace('-', "_");
+    if dialect.is_reserved(&(dialect.spelt)(&snake)) {
+        snake += "_own";
+    }
+    let mut printer = Printer { language, dialect, precision, text: String::new(), depth: 0 };
     for line in header {
         printer.print_comment(line);
     }
-    printer.print_file();
+    printer.print_file(&File::new(text, dialect, precision, &snake));
     printer.text
 }
 
-struct Printer<'a> {
-    id: &'a str,
-    program: &'a Program<'a>,
-    language: Language,
+/// Returns the lines of a rule in the language of steps, and the name of each of its numbers there.
+pub(in crate::tools) fn rule_lines(text: &StepText) -> (Vec<String>, Vec<String>) {
+    let (language, precision, dialect) = (Language::Rust, Precision::Double, &super::dialect::STEP);
+    let mut printer = Printer { language, dialect, precision, text: String::new(), depth: 0 };
+    let mut file = File::new(text, dialect, precision, "");
+    file.spellings.insert("h", RULE_STEP.into());
+    let names = file.step();
+    let all = (0..text.body().names().len()).map(|index| names.name(index)).collect();
+    printer.print_body(names);
+    (printer.text.lines().map(str::to_owned).collect(), all)
+}
+
+/// The name of the length of a step in [the lines of a rule](rule_lines).
+pub(in crate::tools) const RULE_STEP: &str = "step_s";
+
+/// A text with the names that its printed functions share.
+struct File<'t> {
+    text: &'t StepText,
+    dialect: &'static Dialect,
     precision: Precision,
-    spellings: BTreeMap<&'a str, String>,
+    /// The name of the method, in lower case with underscores.
+    snake: &'t str,
+    spellings: Spellings<'t>,
+    forwarding: Vec<&'t str>,
+}
+
+impl<'t> File<'t> {
+    fn new(
+        text: &'t StepText,
+        dialect: &'static Dialect,
+        precision: Precision,
+        snake: &'t str,
+    ) -> Self {
+        let forwards = |body: &StepBody<'t>| takes_function(&body.inputs());
+        let forwarding = text.functions().filter(forwards).filter_map(StepBody::function).collect();
+        let spellings = spellings(text, dialect);
+        Self { text, dialect, precision, snake, spellings, forwarding }
+    }
+
+    fn names(&self, body: StepBody<'t>) -> Names<'_> {
+        let Self { dialect, precision, snake, spellings, forwarding, .. } = self;
+        Names { dialect, precision: *precision, prefix: snake, body, spellings, forwarding }
+    }
+
+    /// Returns the names inside the step.
+    fn step(&self) -> Names<'_> {
+        self.names(self.text.body())
+    }
+}
+
+/// Whether one of the inputs is a function.
+pub(super) fn takes_function(inputs: &[MethodInput<'_>]) -> bool {
+    inputs.iter().any(|input| !input.arguments.is_empty())
+}
+
+struct Printer {
+    language: Language,
+    dialect: &'static Dialect,
+    precision: Precision,
     text: String,
     depth: usize,
 }
 
-impl Printer<'_> {
-    fn dialect(&self) -> &'static Dialect {
-        self.language.dialect()
-    }
-
+impl Printer {
     fn number_type(&self) -> &'static str {
-        self.dialect().type_in(self.precision)
+        self.dialect.type_in(self.precision)
     }
 
-    /// Returns the names inside a function with these inputs.
-    fn names<'a>(&'a self, inputs: &'a [MethodInput<'a>], body: &'a [Line<'a>]) -> Names<'a> {
-        let Self { id, language, precision, .. } = *self;
-        let (whole, spellings) = (whole_numbers(inputs, body), &self.spellings);
-        let functions = &self.program.functions;
-        Names { id, language, precision, whole, inputs, functions, spellings }
-    }
-
-    fn print_file(&mut self) {
-        let mut snake = self.id.replace('-', "_");
-        if is_reserved(self.language, &snake) {
-            snake += "_own";
-        }
-        let pascal = pascal(&snake);
+    fn print_file(&mut self, file: &File<'_>) {
+        let pascal = pascal(file.snake);
         self.push_lines(&[""]);
         match self.language {
             Language::C => self.push_lines(&["#include <math.h>", ""]),
@@ -73,35 +121,55 @@ impl Printer<'_> {
                 ]);
                 self.depth += 1;
             }
-            Language::Rust | Language::GdScript => {}
+            Language::Rust | Language::GdScript | Language::JavaScript | Language::Lua => {}
         }
-        self.print_memory(&snake, &pascal);
-        let program = self.program;
-        for function in &program.functions {
-            for comment in &function.comments {
-                self.print_comment(comment);
+        self.print_memory(file, &pascal);
+        self.print_written_out(file);
+        for body in file.text.functions() {
+            for remark in body.remarks() {
+                self.print_comment(remark);
             }
-            self.print_function(function);
-            self.push_lines(&[""]);
+            self.print_function(file.names(body));
         }
-        self.print_step(&snake, &pascal);
+        self.print_step(file, &pascal);
         if self.language == Language::CSharp {
             self.depth -= 1;
             self.push_lines(&["}"]);
         }
     }
 
-    /// Prints the type of the memory, with its values before the first step.
-    fn print_memory(&mut self, snake: &str, pascal: &str) {
-        let fields = &self.program.memory;
-        if fields.is_empty() {
+    /// Prints the functions that the lines call and the language lacks.
+    fn print_written_out(&mut self, file: &File<'_>) {
+        let bodies = file.text.functions().chain([file.text.body()]);
+        let called = bodies.flat_map(|body| {
+            let names = file.names(body);
+            body.lines().iter().flat_map(move |line| names.written_out(line)).collect::<Vec<_>>()
+        });
+        let mut called: Vec<&str> = called.collect();
+        if called.is_empty() {
             return;
         }
-        let (names, number) = (self.names(&[], &[]), self.number_type());
-        let starts: Vec<(String, String)> = fields
-            .iter()
-            .map(|field| (names.name(field.name), names.expression(field.start)))
-            .collect();
+        if called.contains(&"tanh") {
+            called.extend(["sinh", "cosh"]);
+        }
+        let text = StepText::read_generated(WRITTEN_OUT).expect("a source of the package");
+        let functions = File::new(&text, self.dialect, self.precision, file.snake);
+        let is_called =
+            |body: &StepBody<'_>| body.function().is_some_and(|it| called.contains(&it));
+        for body in text.functions().filter(is_called) {
+            self.print_function(functions.names(body));
+        }
+    }
+
+    /// Prints the type of the memory, with its values before the first step.
+    fn print_memory(&mut self, file: &File<'_>, pascal: &str) {
+        let (names, number, snake) = (file.step(), self.number_type(), file.snake);
+        let carried = file.text.carried().iter().skip(2);
+        let starts: Vec<(String, String)> =
+            carried.map(|field| (names.field(&field.name), names.start(field.start))).collect();
+        if starts.is_empty() {
+            return;
+        }
         let each = |template: &str| -> Vec<String> {
             starts.iter().map(|(name, start)| filled(template, name, start)).collect()
         };
@@ -127,6 +195,21 @@ impl Printer<'_> {
             Language::GdScript => {
                 (format!("class {pascal}Memory:"), each("\tvar NAME: float = VALUE"), String::new())
             }
+            Language::JavaScript => {
+                let name = names.function("memory");
+                let fields = each("NAME: VALUE").join(", ");
+                (
+                    format!("function {name}() {{"),
+                    vec![format!("  return {{ {fields} }};")],
+                    "}".into(),
+                )
+            }
+            Language::Lua => {
+                let name = names.function("memory");
+                let fields = each("NAME = VALUE").join(", ");
+                let line = format!("    return {{ {fields} }}");
+                (format!("local function {name}()"), vec![line], "end".into())
+            }
         };
         self.push_lines(&[&open]);
         each.iter().for_each(|line| self.push_lines(&[line]));
@@ -136,44 +219,65 @@ impl Printer<'_> {
         }
     }
 
-    /// Prints a function that returns a number.
-    fn print_function(&mut self, function: &Function<'_>) {
-        let (name, number) = (self.names(&[], &[]).function(function.name), self.number_type());
+    /// Prints a function that returns a number, and an empty line.
+    fn print_function(&mut self, names: Names<'_>) {
+        let function = names.body.function().unwrap_or_default();
+        let (name, number) = (names.function(function), self.number_type());
         let (open, close) = match self.language {
             Language::Rust => (format!("fn {name}("), format!(") -> {number} {{")),
             Language::C => (format!("static {number} {name}("), ") {".into()),
             Language::CSharp => (format!("static {number} {name}("), ")\n{".into()),
             Language::GdScript => (format!("static func {name}("), ") -> float:".into()),
+            Language::JavaScript => (format!("function {name}("), ") {".into()),
+            Language::Lua => (format!("local function {name}("), ")".into()),
         };
-        let inputs = self.parameters(&function.inputs);
+        let inputs = self.parameters(&names);
         self.signature(&open, &inputs, &close);
         self.depth += 1;
-        self.print_body(&function.body, &function.inputs);
+        self.print_body(names);
         self.depth -= 1;
         self.print_end();
+        self.push_lines(&[""]);
     }
 
     /// Prints the function of the step.
-    fn print_step(&mut self, snake: &str, pascal: &str) {
-        let program = self.program;
+    fn print_step(&mut self, file: &File<'_>, pascal: &str) {
+        let (names, snake) = (file.step(), file.snake);
+        let lines = names.body.lines();
+        let reads = |name: usize| {
+            let is_compound = |line: &Line| matches!(line, Line::Assign { name: it, joins, .. } if *it == name && !joins.is_empty());
+            lines.iter().any(|line| {
+                is_compound(line) || line.value().is_some_and(|value| value.reads(name))
+            })
+        };
+        let is_assigned = |name: usize| move |line: &Line| matches!(line, Line::Assign { name: it, .. } if *it == name);
+        let assigns = |name: usize| lines.iter().any(is_assigned(name));
+        let replaces = |name: usize| {
+            let mut depth = 0;
+            lines.iter().any(|line| {
+                depth += line.depth();
+                depth == 0 && is_assigned(name)(line)
+            })
+        };
         // Unused parameters are marked, so that compilers do not warn of them.
-        let v = if program.reads("v") || !program.replaces("v") { "" } else { "_" };
-        let h = if program.reads("h") { "" } else { "_" };
+        let v = if reads(V) || !replaces(V) { "" } else { "_" };
+        let h = if reads(H) { "" } else { "_" };
         let number = self.number_type();
+        let name = (self.dialect.spelt)(snake);
         let (open, memory, state, close) = match self.language {
             Language::Rust => {
-                let changed = |name: &str| if program.assigns(name) { "mut " } else { "" };
-                let v = if v.is_empty() { format!("{}v", changed("v")) } else { "_v".into() };
-                let state = [format!("{}x", changed("x")), v, format!("{h}h")]
+                let changed = |name: usize| if assigns(name) { "mut " } else { "" };
+                let v = if v.is_empty() { format!("{}v", changed(V)) } else { "_v".into() };
+                let state = [format!("{}x", changed(X)), v, format!("{h}h")]
                     .map(|name| format!("{name}: {number}"));
                 let memory = format!("memory: &mut {pascal}Memory");
                 let close = format!(") -> ({number}, {number}) {{");
-                (format!("pub fn {snake}("), memory, state, close)
+                (format!("pub fn {name}("), memory, state, close)
             }
             Language::C => {
                 let state = ["*position", "*velocity", "h"].map(|name| format!("{number} {name}"));
                 let memory = format!("{snake}_memory *memory");
-                (format!("void {snake}("), memory, state, ") {".into())
+                (format!("void {name}("), memory, state, ") {".into())
             }
             Language::CSharp => {
                 let state = ["x", "v"].map(|name| format!("ref {number} {name}"));
@@ -184,13 +288,21 @@ impl Printer<'_> {
             Language::GdScript => {
                 let state = ["x: float".into(), format!("{v}v: float"), format!("{h}h: float")];
                 let memory = format!("memory: {pascal}Memory");
-                (format!("static func {snake}("), memory, state, ") -> Array:".into())
+                (format!("static func {name}("), memory, state, ") -> Array:".into())
+            }
+            Language::JavaScript | Language::Lua => {
+                let state = ["x", "v", "h"].map(String::from);
+                let [open, close] = match self.language {
+                    Language::Lua => [format!("local function {name}("), ")".into()],
+                    _ => [format!("function {name}("), ") {".into()],
+                };
+                (open, "memory".into(), state, close)
             }
         };
-        let has_memory = !program.memory.is_empty();
+        let has_memory = file.text.carried().len() > 2;
         let mut parameters: Vec<String> = has_memory.then_some(memory).into_iter().collect();
         parameters.extend(state);
-        parameters.extend(self.parameters(&program.inputs));
+        parameters.extend(self.parameters(&names));
         self.signature(&open, &parameters, &close);
         self.depth += 1;
         match (self.language, v.is_empty()) {
@@ -200,31 +312,33 @@ impl Printer<'_> {
             }
             (Language::Rust, false) => self.push_lines(&["let v;"]),
             (Language::GdScript, false) => self.push_lines(&["var v: float"]),
-            (Language::Rust | Language::CSharp | Language::GdScript, _) => {}
+            _ => {}
         }
         if self.language == Language::C && !h.is_empty() {
             self.push_lines(&["(void)h;"]);
         }
-        self.print_body(&program.body, &program.inputs);
+        self.print_body(names);
         match self.language {
             Language::Rust => self.push_lines(&["(x, v)"]),
             Language::C => self.push_lines(&["*position = x;", "*velocity = v;"]),
             Language::CSharp => {}
             Language::GdScript => self.push_lines(&["return [x, v]"]),
+            Language::JavaScript => self.push_lines(&["return [x, v];"]),
+            Language::Lua => self.push_lines(&["return x, v"]),
         }
         self.depth -= 1;
         self.print_end();
     }
 
-    /// Returns the parameters of a function with these inputs.
-    fn parameters(&self, inputs: &[MethodInput<'_>]) -> Vec<String> {
-        let names = self.names(inputs, &[]);
+    /// Returns the parameters for the inputs of a function.
+    fn parameters(&self, names: &Names<'_>) -> Vec<String> {
         let number = self.number_type();
+        let inputs = names.body.inputs();
         let each = |input: &MethodInput<'_>| {
-            let name = names.name(input.name);
+            let name = names.input(input);
             let arguments = &input.arguments;
             let times = || vec![number; arguments.len()].join(", ");
-            let own = if input.is_whole { self.dialect().whole } else { number };
+            let own = if input.is_whole { self.dialect.whole } else { number };
             match (self.language, arguments.is_empty()) {
                 (Language::Rust | Language::GdScript, true) => format!("{name}: {own}"),
                 (Language::Rust, false) => format!("{name}: impl Fn({}) -> {number}", times()),
@@ -236,10 +350,11 @@ impl Printer<'_> {
                 }
                 (Language::CSharp, false) => format!("Func<{}, {number}> {name}", times()),
                 (Language::GdScript, false) => format!("{name}: Callable"),
+                (Language::JavaScript | Language::Lua, _) => name,
             }
         };
         let mut parameters: Vec<String> = inputs.iter().map(each).collect();
-        if self.language == Language::C && takes_function(inputs) {
+        if self.language == Language::C && takes_function(&inputs) {
             parameters.push("void *user".into());
         }
         parameters
@@ -248,8 +363,7 @@ impl Printer<'_> {
     /// Prints the head of a function. If the parameters are too long for one line, each has a line of its own.
     fn signature(&mut self, open: &str, parameters: &[String], close: &str) {
         let whole = format!("{open}{}{close}", parameters.join(", "));
-        let dialect = self.dialect();
-        if whole.len() + self.depth * dialect.indent.len() <= LINE_CHARS {
+        if whole.len() + self.depth * self.dialect.indent.len() <= LINE_CHARS {
             self.push_lines(&[&whole]);
         } else {
             self.push_lines(&[open]);
@@ -266,80 +380,97 @@ impl Printer<'_> {
     }
 
     fn print_end(&mut self) {
-        match self.dialect().end {
+        match self.dialect.end {
             "" => {}
             end => self.push_lines(&[end]),
         }
     }
 
-    fn print_body(&mut self, lines: &[Line<'_>], inputs: &[MethodInput<'_>]) {
-        let dialect = self.dialect();
-        let whole = whole_numbers(inputs, lines);
+    fn print_body(&mut self, names: Names<'_>) {
+        let (dialect, lines) = (self.dialect, names.body.lines());
+        let found = declarations(names.body);
+        let declaration = |kind: Declaration| match kind {
+            Declaration::Constant => dialect.constant,
+            Declaration::Number => dialect.number,
+            Declaration::Variable => dialect.variable,
+            Declaration::Counter => dialect.counter,
+        };
+        for (name, kind) in &found.above {
+            let start = if *kind == Declaration::Counter { "0" } else { "0.0" };
+            self.push_filled(declaration(*kind), &names.name(*name), start);
+        }
+        let last = lines.iter().rposition(|line| !matches!(line, Line::Remark(_) | Line::Blank));
         for (n, line) in lines.iter().enumerate() {
-            let is_last = n + 1 == lines.len();
-            let (template, name, value) = match line {
-                Line::Blank => ("", "", ""),
-                Line::Comment(text) => {
-                    self.print_comment(text);
-                    continue;
-                }
-                Line::Constant { name, value } => (dialect.constant, *name, &**value),
-                Line::Let { name, value } => (dialect.number, *name, &**value),
-                Line::Var { name, value } => (dialect.variable, *name, &**value),
-                Line::Counter { name, value } => (dialect.counter, *name, &**value),
-                Line::Assignment(text) => (dialect.assignment, "", &**text),
-                Line::If(condition) => (dialect.if_block, "", &**condition),
-                Line::While(condition) => (dialect.while_block, "", &**condition),
-                Line::Return(value) if is_last => (dialect.last_value, "", &**value),
-                Line::Return(value) => (dialect.return_value, "", &**value),
-                Line::Fail | Line::Stay => {
-                    self.end_early(*line == Line::Fail);
-                    continue;
-                }
-                Line::Else | Line::End => {
-                    self.depth -= 1;
-                    if *line == Line::Else {
-                        self.push_lines(&[dialect.else_block]);
-                        self.depth += 1;
-                    } else {
-                        self.print_end();
+            let is_block_end = matches!(lines.get(n + 1), Some(Line::End | Line::Else));
+            match line {
+                Line::Blank => self.push_lines(&[""]),
+                Line::Remark(text) => self.print_comment(text),
+                Line::Assign { name, joins, value, .. } => {
+                    let (value, level) = names.expression(value, names.body.is_whole(*name));
+                    let name = names.name(*name);
+                    match found.lines[n] {
+                        Some(kind) => self.push_filled(declaration(kind), &name, &value),
+                        None => {
+                            let assignment = assignment(dialect, &name, joins, value, level);
+                            self.push_filled(dialect.assignment, "", &assignment);
+                        }
                     }
-                    continue;
                 }
-            };
-            let names = self.names(inputs, lines);
-            let line_break = format!("{}\n{}", dialect.line_break, dialect.indent);
-            let counts = match line {
-                Line::If(_) | Line::While(_) | Line::Counter { .. } => true,
-                Line::Assignment(text) => {
-                    text.split(' ').next().is_some_and(|name| whole.contains(&name))
+                Line::If(value) | Line::While(value) => {
+                    let is_if = matches!(line, Line::If(_));
+                    let template = if is_if { dialect.if_block } else { dialect.while_block };
+                    self.push_filled(template, "", &names.expression(value, false).0);
+                    self.depth += 1;
                 }
-                _ => false,
-            };
-            let value =
-                if counts { names.whole_expression(value) } else { names.expression(value) };
-            let value = value.replace('\n', &line_break);
-            let template_here = dialect.fill_precision(template, self.precision);
-            self.push_lines(&[&filled(&template_here, &names.name(name), &value)]);
-            if [dialect.if_block, dialect.while_block].contains(&template) {
-                self.depth += 1;
+                Line::Return(value) => {
+                    let is_last = Some(n) == last;
+                    let template = if is_last { dialect.last_value } else { dialect.return_value };
+                    self.push_filled(template, "", &names.expression(value, false).0);
+                }
+                Line::Stop { fails } => {
+                    let moves = |line: &Line| matches!(line, Line::Assign { name: X | V, .. });
+                    self.end_early(*fails, lines[..n].iter().any(moves), is_block_end);
+                }
+                Line::Else => {
+                    self.depth -= 1;
+                    self.push_lines(&[dialect.else_block]);
+                    self.depth += 1;
+                }
+                Line::End => {
+                    self.depth -= 1;
+                    self.print_end();
+                }
             }
         }
     }
 
+    /// Prints a template with its placeholders filled.
+    fn push_filled(&mut self, template: &str, name: &str, value: &str) {
+        let template = self.dialect.fill_precision(template, self.precision);
+        self.push_lines(&[&filled(&template, name, value)]);
+    }
+
     /// Ends the step early, without a result if it fails, and otherwise with the present x and v.
-    fn end_early(&mut self, fails: bool) {
+    fn end_early(&mut self, fails: bool, has_moved: bool, is_block_end: bool) {
         let number = self.number_type();
         let lines: &[&str] = match (self.language, fails) {
             (Language::Rust, true) => &[&format!("return ({number}::NAN, {number}::NAN);")],
             (Language::Rust, false) => &["return (x, v);"],
             (Language::C, true) => &["*position = NAN;", "*velocity = NAN;", "return;"],
+            (Language::C, false) if has_moved => &["*position = x;", "*velocity = v;", "return;"],
             (Language::C | Language::CSharp, false) => &["return;"],
             (Language::CSharp, true) => {
                 &[&format!("x = {number}.NaN;"), &format!("v = {number}.NaN;"), "return;"]
             }
             (Language::GdScript, true) => &["return [NAN, NAN]"],
             (Language::GdScript, false) => &["return [x, v]"],
+            (Language::JavaScript, true) => &["return [NaN, NaN];"],
+            (Language::JavaScript, false) => &["return [x, v];"],
+            // In Lua a block ends with its `return`.
+            (Language::Lua, true) if is_block_end => &["return 0 / 0, 0 / 0"],
+            (Language::Lua, true) => &["do return 0 / 0, 0 / 0 end"],
+            (Language::Lua, false) if is_block_end => &["return x, v"],
+            (Language::Lua, false) => &["do return x, v end"],
         };
         self.push_lines(lines);
     }
@@ -348,7 +479,7 @@ impl Printer<'_> {
     /// language, and a backslash by which C would continue it.
     fn print_comment(&mut self, text: &str) {
         let text = text.replace(hides_or_breaks, " ");
-        let line = format!("{} {text}", self.dialect().comment);
+        let line = format!("{} {text}", self.dialect.comment);
         self.push_lines(&[line.trim_end_matches(['\\', ' '])]);
     }
 
@@ -364,11 +495,30 @@ impl Printer<'_> {
     }
 
     fn indent(&self, depth: usize) -> String {
-        self.dialect().indent.repeat(depth)
+        self.dialect.indent.repeat(depth)
     }
 }
 
 /// Fills in the placeholders of a template.
 fn filled(template: &str, name: &str, value: &str) -> String {
     template.replace("NAME", name).replace("VALUE", value)
+}
+
+/// Writes an assignment whose operator is `joins` with `=`.
+fn assignment(
+    dialect: &Dialect,
+    name: &str,
+    joins: &str,
+    value: String,
+    level: Option<Level>,
+) -> String {
+    match joins {
+        "" => format!("{name} = {value}"),
+        _ if dialect.is_compound => format!("{name} {joins}= {value}"),
+        "+" | "-" if level > Some(Level::Sum) || level.is_none() => {
+            format!("{name} = {name} {joins} {value}")
+        }
+        _ if level.is_none() => format!("{name} = {name} {joins} {value}"),
+        _ => format!("{name} = {name} {joins} ({value})"),
+    }
 }

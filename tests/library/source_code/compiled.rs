@@ -40,7 +40,7 @@ const SINGLE_ROUNDING: f64 = 2e-4;
 const OTHER_SUBSTEPS: f64 = 2e-2;
 
 /// Compares the output of a driver with the methods of the table.
-fn same(language: Language, precision: Precision, text: &str) {
+pub(super) fn same(language: Language, precision: Precision, text: &str) {
     let mut lines = text.lines();
     let mut wrong = Vec::new();
     for (k, case) in CASES.iter().enumerate() {
@@ -116,7 +116,7 @@ fn off_where_paused(method: &Method, case: &Case, found: &[[f64; 2]]) -> Option<
 }
 
 /// The output of a compiled driver.
-fn printed(driver: &mut Command) -> String {
+pub(super) fn printed(driver: &mut Command) -> String {
     let output = driver.output().unwrap();
     assert!(output.status.success(), "{:?}", output.status);
     String::from_utf8(output.stdout).unwrap()

@@ -8,5 +8,6 @@ mod drivers;
 mod gdscript;
 mod held;
 pub(crate) mod known;
+mod scripts;
 mod text;
 mod words;

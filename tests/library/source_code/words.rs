@@ -25,7 +25,7 @@ const WORDS: &str = "abstract alignas and_eq as asm async auto await base become
     volatile wchar_t when where while xor yield y0 _ __ _x x_ X x_own foo_bar fooBar foobar FooBar box_own boxOwn";
 
 /// Rules that declare the words as `let`, as `var` and as `memory`, some words each.
-fn rules() -> Vec<String> {
+pub(super) fn rules() -> Vec<String> {
     let declared: [fn(&str) -> String; 3] = [
         |word: &str| format!("let {word} = x * 0.5\nx += {word} * 0.001\n"),
         |word: &str| format!("{word} = x * 0.5\n{word} += 1\nx += {word} * 0.001\n"),
@@ -49,7 +49,7 @@ fn rules() -> Vec<String> {
         .collect()
 }
 
-fn code(rule: &str, language: Language) -> String {
+pub(super) fn code(rule: &str, language: Language) -> String {
     Rule::read(rule, 60.0).unwrap().code(rule, language).unwrap().text
 }
 

@@ -43,12 +43,15 @@ impl Input {
     ];
 }
 
-/// A setting that the lines take.
+/// An input that the lines take.
 #[derive(Clone, Debug)]
 pub(super) struct Taken {
-    pub(super) input: Input,
-    /// The index of its name.
-    pub(super) name: usize,
+    /// The setting; `None` for the acceleration and the target.
+    pub(super) input: Option<Input>,
+    /// The index of its name; `None` for the acceleration.
+    pub(super) name: Option<usize>,
+    pub(super) is_whole: bool,
+    /// The byte range of its name, which its description may follow.
     pub(super) span: Range<usize>,
 }
 
@@ -103,6 +106,10 @@ pub(super) struct Function {
     pub(super) inputs: Vec<bool>,
     pub(super) names: Vec<String>,
     pub(super) lines: Vec<Line>,
+    /// The remarks above the function.
+    pub(super) remarks: Vec<String>,
+    /// The shared source of the function, if it is not the text of the step.
+    pub(super) shared: Option<&'static str>,
     pub(super) general: Option<General>,
 }
 
@@ -324,7 +331,7 @@ impl StepText {
 
     /// Whether the method takes this setting.
     pub fn takes(&self, input: Input) -> bool {
-        self.inputs.iter().any(|taken| taken.input == input)
+        self.inputs.iter().any(|taken| taken.input == Some(input))
     }
 
     /// Returns the order of the law by which the method follows a target; `None` if it follows none.
@@ -390,8 +397,9 @@ impl StepText {
         value: f64,
     ) {
         let size = registers.answer.len();
-        if let Some(taken) = self.inputs.iter().find(|taken| taken.input == input) {
-            registers.slots[taken.name * size + coordinate] = value;
+        let taken = self.inputs.iter().find(|taken| taken.input == Some(input));
+        if let Some(name) = taken.and_then(|taken| taken.name) {
+            registers.slots[name * size + coordinate] = value;
         }
     }
 

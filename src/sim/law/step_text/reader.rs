@@ -2,7 +2,6 @@
 
 use std::ops::Range;
 
-pub(crate) use functions::SHARED_STEPS;
 use functions::end_of;
 
 use super::method::{Function as OwnFunction, Machine, Taken};
@@ -16,6 +15,7 @@ use crate::sim::law::op::{OPERATOR_WORDS, Op};
 use crate::sim::law::tape::{MAX_OPERATIONS, MAX_SWITCHES, Tape};
 use crate::sim::law::token::is_name_part;
 
+mod assignment;
 mod functions;
 mod values;
 
@@ -65,6 +65,11 @@ pub(super) struct Reader<'t> {
     functions: Vec<OwnFunction>,
     /// Whether the lines are those of a function.
     is_function: bool,
+    /// Remarks above the inputs, and above what the reader has not reached.
+    notes: Vec<String>,
+    remarks: Vec<String>,
+    /// Whether a line of the step itself was read.
+    has_begun: bool,
     reads_velocity: bool,
     /// Whether the value of `SmoothDamp` is the velocity that it leaves.
     damps_velocity: bool,
@@ -142,9 +147,13 @@ impl Scope for Reader<'_> {
 }
 
 impl<'t> Reader<'t> {
-    /// Reads a text.
-    pub(super) fn read(text: &'t str, all: &[Statement]) -> Parsed<StepText> {
-        let mut reader = Self::new(text, first_call(text), Vec::new());
+    /// Reads a text, which is a method if `method_at` is given or a line calls the acceleration.
+    pub(super) fn read(
+        text: &'t str,
+        method_at: Option<Range<usize>>,
+        all: &[Statement],
+    ) -> Parsed<StepText> {
+        let mut reader = Self::new(text, method_at.or_else(|| first_call(text)), Vec::new());
         reader.names = BUILT_IN.map(String::from).to_vec();
         reader.is_carried = vec![true; BUILT_IN.len()];
         reader.starts = vec![0.0; BUILT_IN.len()];
@@ -175,6 +184,9 @@ impl<'t> Reader<'t> {
             takes_target: false,
             functions,
             is_function: false,
+            notes: Vec::new(),
+            remarks: Vec::new(),
+            has_begun: false,
             reads_velocity: false,
             damps_velocity: false,
         }
@@ -185,8 +197,8 @@ impl<'t> Reader<'t> {
         let mut at = 0;
         while let Some(statement) = all.get(at) {
             match statement {
-                Statement::Assign { name, is_declared, value, .. } => {
-                    let is_carried = !is_declared && !self.is_function;
+                Statement::Assign { name, declares, value, .. } => {
+                    let is_carried = declares.is_none() && !self.is_function;
                     self.declare(name.clone(), is_carried, false)?;
                     if let Some(velocity) = damped_velocity(self.text, value) {
                         self.declare(velocity, is_carried, false)?;
@@ -281,13 +293,36 @@ impl<'t> Reader<'t> {
 
     /// Consumes the next statement.
     pub(super) fn read_statement(&mut self, statement: Statement) -> Parsed<()> {
+        if !self.has_begun {
+            match statement {
+                Statement::Blank => return Ok(()),
+                Statement::Remark(text) => {
+                    self.remarks.push(text);
+                    return Ok(());
+                }
+                Statement::Takes(_) => self.notes.append(&mut self.remarks),
+                Statement::Memory { .. } | Statement::Use(_) => {}
+                _ => {
+                    self.has_begun = true;
+                    self.lines.extend(self.remarks.drain(..).map(Line::Remark));
+                }
+            }
+        }
         match statement {
-            Statement::Assign { name, joins, value, is_declared } => {
+            Statement::Remark(text) => {
+                self.lines.push(Line::Remark(text));
+                Ok(())
+            }
+            Statement::Blank => {
+                self.lines.push(Line::Blank);
+                Ok(())
+            }
+            Statement::Assign { name, joins, value, declares } => {
                 // A game declares the initial value of `x` or `v` above the lines of its frames.
                 let index = self.index(&self.text[name.clone()]);
                 let index = index.filter(|index| *index <= V && !self.is_function);
                 let is_first = index.is_some_and(|index| self.values[index].is_none());
-                let start = match is_declared && is_first && self.blocks.is_empty() {
+                let start = match declares.is_some() && is_first && self.blocks.is_empty() {
                     true => self
                         .constant_value(&self.expression(value.clone(), false)?, value.clone())
                         .ok(),
@@ -299,7 +334,7 @@ impl<'t> Reader<'t> {
                     (None, None) => {
                         let expression = self.expression(value.clone(), false)?;
                         let index = self.index(&self.text[name.clone()]).unwrap_or(X);
-                        self.assign(index, name, joins, expression, value)?;
+                        self.assign(index, name, (joins, declares), expression, value)?;
                     }
                 }
                 Ok(())
@@ -313,6 +348,10 @@ impl<'t> Reader<'t> {
                 };
                 let index = self.index(&self.declared(name, true)).unwrap_or(X);
                 self.starts[index] = start;
+                // A game may draw a number that the lines only write.
+                if self.is_method() && !self.carried.contains(&index) {
+                    self.carried.push(index);
+                }
                 Ok(())
             }
             Statement::If(condition) => self.open(condition, false),
@@ -384,7 +423,11 @@ impl<'t> Reader<'t> {
             };
             ExpressionFault { span: at, remedy, ..found }
         };
-        read.map_err(in_text)
+        let mut read = read.map_err(in_text)?;
+        for place in &mut read.spans {
+            *place = place.start + span.start..place.end + span.start;
+        }
+        Ok(read)
     }
 
     /// Returns the value of an expression made only of numbers.
@@ -404,84 +447,6 @@ impl<'t> Reader<'t> {
         )
     }
 
-    /// Assigns the place that `SmoothDamp` leaves, and its velocity.
-    fn assign_damped(
-        &mut self,
-        name: Range<usize>,
-        joins: &'static str,
-        value: Range<usize>,
-        velocity: Range<usize>,
-    ) -> Parsed<()> {
-        let index = |text: &str| self.index(text).unwrap_or(X);
-        let [x, v] = [&name, &velocity].map(|span| index(&self.text[span.clone()]));
-        let damped = index(DAMPED_PLACE);
-        let place = self.expression(value.clone(), false)?;
-        self.damps_velocity = true;
-        let speed = self.expression(value.clone(), false);
-        self.damps_velocity = false;
-        self.assign(damped, name.clone(), "", place, value.clone())?;
-        self.assign(v, velocity, "", speed?, value.clone())?;
-        let mut read = Expression::default();
-        read.nodes.push(Node::input(damped));
-        read.spans.push(0..0);
-        self.assign(x, name, joins, read, value)
-    }
-
-    fn assign(
-        &mut self,
-        index: usize,
-        name: Range<usize>,
-        joins: &'static str,
-        expression: Expression,
-        value: Range<usize>,
-    ) -> Parsed<()> {
-        let is_0 = |node: usize| {
-            let node = expression.nodes[node];
-            matches!(node.op, Op::Number) && node.number == 0.0
-        };
-        let mut nodes = expression.nodes.iter();
-        if nodes.any(|node| matches!(node.op, Op::Divide) && is_0(node.arguments()[1])) {
-            return fault(value, "it divides by 0", "divide by another number");
-        }
-        if self.inputs.iter().any(|taken| taken.name == index && !self.is_function) {
-            return fault(name, "a step cannot change its setting", "give it another name");
-        }
-        let found = match self.is_method() {
-            true => {
-                self.note_reads(&expression);
-                0
-            }
-            false => self.splice(&expression, value.start),
-        };
-        let found = match joins {
-            "" => found,
-            joins => {
-                if self.input(&self.names[index]).is_none() {
-                    let written = quoted(&self.names[index]);
-                    let what = format!("`{written}` has no value yet");
-                    return fault(name, what, format!("write `let {written} = 0` before"));
-                }
-                if self.is_method() {
-                    self.note_read(index);
-                    self.values[index] = Some(0);
-                    self.lines.push(Line::Assign { name: index, joins, value: expression });
-                    return Ok(());
-                }
-                let op = match joins {
-                    "+" => Op::Add,
-                    "-" => Op::Subtract,
-                    "*" => Op::Multiply,
-                    _ => Op::Divide,
-                };
-                let before = self.value(index, &name);
-                self.push(Node::new(op, &[before, found]), &name)
-            }
-        };
-        self.values[index] = Some(found);
-        self.lines.push(Line::Assign { name: index, joins, value: expression });
-        self.check_length(name)
-    }
-
     fn open(&mut self, condition: Range<usize>, is_chained: bool) -> Parsed<()> {
         if self.blocks.len() == MAX_BLOCKS {
             let what = format!("the blocks are nested more than {MAX_BLOCKS} deep");
@@ -493,7 +458,7 @@ impl<'t> Reader<'t> {
                 self.note_reads(&expression);
                 0
             }
-            false => self.splice(&expression, condition.start),
+            false => self.splice(&expression),
         };
         let before = self.values.clone();
         self.blocks.push(Block {
@@ -559,7 +524,7 @@ impl<'t> Reader<'t> {
             input,
         };
         let carried = carried.into_iter().map(named).collect();
-        let Reader { names, lines, method_at, inputs, functions, reads_velocity, .. } = self;
+        let Reader { names, lines, method_at, inputs, functions, notes, reads_velocity, .. } = self;
         Ok(StepText {
             source: String::new(),
             names,
@@ -569,6 +534,7 @@ impl<'t> Reader<'t> {
             method_at,
             inputs,
             functions,
+            notes,
             reads_velocity,
             machine,
             left_out: None,

@@ -9,7 +9,12 @@ use crate::sim::law::token::{is_name_part, is_name_start};
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) enum Statement {
     /// `name = value`. `joins` is the operator that combines the value with the previous number; it is empty for `=`.
-    Assign { name: Range<usize>, joins: &'static str, value: Range<usize>, is_declared: bool },
+    Assign {
+        name: Range<usize>,
+        joins: &'static str,
+        value: Range<usize>,
+        declares: Option<Declares>,
+    },
     /// `memory name = value`.
     Memory { name: Range<usize>, value: Range<usize> },
     /// `if condition {`.
@@ -30,6 +35,21 @@ pub(super) enum Statement {
     Return { word: Range<usize>, value: Range<usize> },
     /// `fail` or `stay`, and whether the step fails.
     Stop(Range<usize>, bool),
+    /// A remark on a line of its own, without its sign.
+    Remark(String),
+    /// An empty line between others.
+    Blank,
+}
+
+/// The kind of number that a statement declares.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Declares {
+    /// A number.
+    Number,
+    /// A number that no line changes.
+    Constant,
+    /// A whole number.
+    Counter,
 }
 
 impl Statement {
@@ -74,14 +94,41 @@ fn begins_word(text: &str, at: usize, words: &[&str]) -> bool {
             .any(|word| bytes[at..].starts_with(word.as_bytes()) && !is_part(Some(at + word.len())))
 }
 
-/// Returns the statements of a text without comments.
-pub(super) fn statements(text: &str) -> Parsed<Vec<Statement>> {
+/// Returns the statements of a text whose remarks are blank. `source` is the text with them.
+pub(super) fn statements(text: &str, source: &str) -> Parsed<Vec<Statement>> {
     let mut reader = Reader { text, at: 0, worded: Vec::new() };
     let mut statements = Vec::new();
-    while let Some(statement) = reader.next()? {
-        statements.push(statement);
+    loop {
+        let before = reader.at;
+        reader.skip(|c| c.is_ascii_whitespace() || c == ';');
+        add_remarks(&mut statements, source, before..reader.at);
+        match reader.next()? {
+            Some(statement) => statements.push(statement),
+            None => return Ok(statements),
+        }
     }
-    Ok(statements)
+}
+
+/// Adds the remarks and the empty lines between two statements.
+fn add_remarks(statements: &mut Vec<Statement>, source: &str, between: Range<usize>) {
+    let mut at = between.start;
+    for line in source[between.clone()].split_inclusive('\n') {
+        let (start, text) = (at, line.trim());
+        at += line.len();
+        let is_first = start == between.start && start > 0;
+        if is_first || !line.ends_with('\n') && at < source.len() {
+            continue;
+        }
+        let signs = text.strip_prefix("//").or(text.strip_prefix('#'));
+        if let Some(remark) = signs.map(str::trim_start) {
+            statements.push(Statement::Remark(remark.to_owned()));
+        } else if text.is_empty()
+            && at < source.len()
+            && !matches!(statements.last(), None | Some(Statement::Blank))
+        {
+            statements.push(Statement::Blank);
+        }
+    }
 }
 
 struct Reader<'t> {
@@ -118,6 +165,7 @@ impl Reader<'_> {
                 let brace = start..self.at;
                 self.skip(|c| c.is_ascii_whitespace());
                 if &self.text[self.name()] != "else" {
+                    self.at = brace.end;
                     return Ok(Some(Statement::End(brace)));
                 }
                 self.at = self.name().end;
@@ -257,7 +305,7 @@ impl Reader<'_> {
     fn assignment(&mut self) -> Parsed<Statement> {
         let (start, end) = (self.at, self.end());
         let whole = |reader: &Self| start..end.max(reader.at).max(start + 1).min(reader.text.len());
-        let mut is_declared = false;
+        let mut declares = None;
         let mut name = self.name();
         if let Some((word, remedy)) =
             REFUSED.iter().find(|(word, _)| *word == &self.text[name.clone()])
@@ -265,13 +313,18 @@ impl Reader<'_> {
             return fault(name, format!("`{word}` cannot stand in a step"), *remedy);
         }
         let is_memory = &self.text[name.clone()] == "memory";
-        while is_memory && !is_declared || DECLARERS.contains(&&self.text[name.clone()]) {
+        while is_memory && declares.is_none() || DECLARERS.contains(&&self.text[name.clone()]) {
+            let declared = match &self.text[name.clone()] {
+                "const" => Declares::Constant,
+                "count" => Declares::Counter,
+                _ => declares.unwrap_or(Declares::Number),
+            };
             self.at = name.end;
             self.skip(|c| c == ' ' || c == '\t');
             if self.name().is_empty() {
                 break;
             }
-            is_declared = true;
+            declares = Some(declared);
             name = self.name();
         }
         if name.is_empty() {
@@ -281,7 +334,7 @@ impl Reader<'_> {
         }
         self.at = name.end;
         self.skip(|c| c == ' ' || c == '\t');
-        if is_declared && self.rest().starts_with(':') && !self.rest().starts_with(":=") {
+        if declares.is_some() && self.rest().starts_with(':') && !self.rest().starts_with(":=") {
             self.at += 1;
             self.skip(|c| c == ' ' || c == '\t');
             self.at = self.name().end;
@@ -315,9 +368,9 @@ impl Reader<'_> {
             let brace = self.at..self.at + 1;
             return fault(brace, "`{` opens no block here", "write `if condition {`, or remove it");
         }
-        Ok(match is_memory && is_declared {
+        Ok(match is_memory && declares.is_some() {
             true if joins.is_empty() => Statement::Memory { name, value },
-            _ => Statement::Assign { name, joins, value, is_declared },
+            _ => Statement::Assign { name, joins, value, declares },
         })
     }
 }
@@ -339,12 +392,14 @@ fn continues_on_next_line(before: &str, after: &str) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::sim::law::step_text::plain::plain;
 
     fn read(text: &str) -> Vec<String> {
-        let of = |span: Range<usize>| text[span].trim().to_owned();
+        let (plain, _) = plain(text);
+        let of = |span: Range<usize>| plain[span].trim().to_owned();
         let shown = |statement| match statement {
-            Statement::Assign { name, joins, value, is_declared } => {
-                let declared = if is_declared { "let " } else { "" };
+            Statement::Assign { name, joins, value, declares } => {
+                let declared = declares.map_or(String::new(), |it| format!("{it:?} "));
                 format!("{declared}{} {joins}= {}", of(name), of(value))
             }
             Statement::Memory { name, value } => format!("memory {} = {}", of(name), of(value)),
@@ -357,14 +412,16 @@ mod tests {
             Statement::Stop(word, _) => of(word),
             Statement::Else(condition, _) => format!("else {}", condition.map_or("".into(), of)),
             Statement::End(_) => "end".into(),
+            Statement::Remark(text) => format!("# {text}"),
+            Statement::Blank => String::new(),
         };
-        statements(text).unwrap().into_iter().map(shown).collect()
+        statements(&plain, text).unwrap().into_iter().map(shown).collect()
     }
 
     #[test]
     fn statements_end_at_semicolons_braces_and_complete_lines() {
         let text = "let k: f32 = 3; v = (v + (1 - x)\n * 0.2) * k\n  - 1\nx += v;\n";
-        assert_eq!(read(text), ["let k = 3", "v = (v + (1 - x)\n * 0.2) * k\n  - 1", "x += v"]);
+        assert_eq!(read(text), ["Number k = 3", "v = (v + (1 - x)\n * 0.2) * k\n  - 1", "x += v"]);
         let text = "memory old = 0\nif (x > 1) { x = 1; v = 0 } else if x < 0\n{\nx = 0 } else { old = x }";
         assert_eq!(
             read(text),
@@ -380,12 +437,19 @@ mod tests {
                 "end"
             ]
         );
-        assert_eq!(read("const float a := 1\n\n;;float b = 2"), ["let a = 1", "let b = 2"]);
+        assert_eq!(
+            read("const float a := 1\n\n;;float b = 2"),
+            ["Constant a = 1", "", "Number b = 2"]
+        );
         let text = "takes whole n\nuse solve\nfn f(a(x, v), x) {\n  while x < 1 {\n stay }\n return a(x,\n 1) }; fail";
         let found = ["takes whole n", "use solve", "fn f a(x, v), x", "while x < 1", "stay", "end"];
         assert_eq!(read(text)[..6], found);
         assert_eq!(read(text)[6..], ["return a(x,\n 1)", "end", "fail"]);
         assert_eq!(read(" \n;"), [""; 0]);
+        let text = "// One.\n\n\nx += v # two\n  #three\nv *= 2 /* four */\n# five\n";
+        let found = ["# One.", "", "x += v", "# three", "v *= 2", "# five"];
+        assert_eq!(read(text), found);
+        assert_eq!(read("count n = 1; const float k = 2"), ["Counter n = 1", "Constant k = 2"]);
     }
 
     #[test]
@@ -408,7 +472,7 @@ mod tests {
             ("3", 0..1),
             ("if x > 1 { x = 1 } else x = 2", 24..24),
         ] {
-            assert_eq!(statements(text).unwrap_err().span, at, "{text}");
+            assert_eq!(statements(text, text).unwrap_err().span, at, "{text}");
         }
     }
 }

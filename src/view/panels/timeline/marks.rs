@@ -71,16 +71,32 @@ pub(super) struct Context<'a> {
 
 impl Context<'_> {
     /// Returns the marks of the events that changed a body, by tick. An edit that was undone in the same tick has no
-    /// mark.
+    /// mark, and a pull has one at its start.
     pub(super) fn marks(&self) -> impl Iterator<Item = TimelineMark> {
         let events = self.events.iter().enumerate().zip(self.lasting_events());
-        events.filter(|(_, lasts)| *lasts).map(|((i, Event { tick, kind }), _)| {
+        let shown = events.filter(|((i, event), lasts)| *lasts && !self.goes_on(*i, event));
+        shown.map(|((i, Event { tick, kind }), _)| {
             let (sign, colour) = match kind {
                 EventKind::Done { action, .. } => self.of_action(action),
                 EventKind::Halted { .. } => (Sign::Halt, self.palette.bad),
             };
             TimelineMark { tick: *tick, sign, colour, event: Some(i) }
         })
+    }
+
+    /// Whether an event belongs to a pull that an earlier event began.
+    fn goes_on(&self, index: usize, event: &Event) -> bool {
+        let pulled = |event: &Event| match event.kind {
+            EventKind::Done { action: Action::Push { body, .. }, .. } => Some(body),
+            _ => None,
+        };
+        let body = pulled(event);
+        let mut before = self.events[..index].iter().rev();
+        body.is_some()
+            && before
+                .by_ref()
+                .take_while(|it| it.tick + 1 >= event.tick)
+                .any(|it| it.tick + 1 == event.tick && pulled(it) == body)
     }
 
     /// Whether each event affects a body beyond its tick. A lane that gets its old settings back moves on as before,
@@ -271,6 +287,26 @@ mod tests {
         let signs: Vec<Sign> = marks(&studio).iter().map(|(sign, _)| *sign).collect();
         use Sign::*;
         assert_eq!(signs, [Switch, Kick, Edit, Rate, Edit, Kick]);
+    }
+
+    #[test]
+    fn a_pull_of_many_ticks_has_one_mark() {
+        let mut studio = Studio::new(Scene::built_in("harbour").unwrap());
+        run(&mut studio, 10);
+        let push = |body: usize| Action::Push { body, by: [0.1].into() };
+        let pulled = |studio: &mut Studio, ticks: u32| {
+            for _ in 0..ticks {
+                studio.apply(RunCommand::Act(push(0)));
+                run(studio, 1);
+            }
+        };
+        pulled(&mut studio, 30);
+        assert_eq!(marks(&studio).len(), 1);
+        run(&mut studio, 5);
+        pulled(&mut studio, 3);
+        studio.apply(RunCommand::Act(push(1)));
+        let ticks = texts(&studio).into_iter().map(|text| text[..8].trim().to_owned());
+        assert_eq!(ticks.collect::<Vec<_>>(), ["tick 10", "tick 45", "tick 48"]);
     }
 
     #[test]

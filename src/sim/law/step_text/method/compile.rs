@@ -67,7 +67,7 @@ impl Compiler<'_> {
             match line {
                 Line::End => return Some((acts, false)),
                 Line::Else => return Some((acts, true)),
-                Line::Assign { name, joins, value } => {
+                Line::Assign { name, joins, value, .. } => {
                     let mut from = self.expression(value, slots, &mut acts)?;
                     let op = match *joins {
                         "+" => Some(Op::Add),
@@ -104,6 +104,7 @@ impl Compiler<'_> {
                     })?;
                     acts.push(Act::While { test, condition, body });
                 }
+                Line::Remark(_) | Line::Blank => {}
                 Line::Return(value) => {
                     let from = self.expression(value, slots, &mut acts)?;
                     acts.extend([Act::Set { to: result, from }, Act::Leave]);

@@ -7,14 +7,14 @@ use crate::sim::law::fault::{Parsed, fault, quoted};
 use crate::sim::law::step_text::method::{Function, General, Input, Taken};
 use crate::sim::law::step_text::plain::plain;
 use crate::sim::law::step_text::statements::{Statement, statements};
-use crate::sim::law::step_text::{Line, X};
+use crate::sim::law::step_text::{Line, TARGET, X};
 use crate::sim::law::token::is_name_part;
 
 /// The maximum number of functions of a text.
 const MAX_FUNCTIONS: usize = 16;
 
 /// The functions that a text may `use`.
-pub(crate) const SHARED_STEPS: [(&str, &str); 4] = [
+const SHARED_STEPS: [(&str, &str); 4] = [
     ("slope", include_str!("../../../../../assets/methods/shared/slope.step")),
     ("solve", include_str!("../../../../../assets/methods/shared/solve.step")),
     ("steady", include_str!("../../../../../assets/methods/shared/steady.step")),
@@ -35,24 +35,33 @@ impl Reader<'_> {
     /// Reads an input of the lines, such as `whole substeps`.
     pub(super) fn take(&mut self, span: Range<usize>) -> Parsed<()> {
         let text = self.text[span.clone()].trim();
+        let is_whole = text.starts_with("whole ");
         let name = text.strip_prefix("whole ").unwrap_or(text).trim();
         let name = name.split('(').next().unwrap_or_default().trim_end();
         let start = span.start + self.text[span.clone()].find(name).unwrap_or(0);
         let span = start..start + name.len();
-        if name == "target" {
-            self.takes_target = true;
-        } else if let Some((_, input)) = Input::ALL.iter().find(|(known, _)| *known == name) {
-            self.method_at.get_or_insert(span.clone());
-            self.declare(span.clone(), false, false)?;
-            let index = self.index(name).unwrap_or(X);
-            self.values[index] = Some(0);
-            self.inputs.push(Taken { input: *input, name: index, span });
-        } else if !ACCELERATION.contains(&name) {
-            let known: Vec<&str> = Input::ALL.iter().map(|(name, _)| *name).collect();
-            let what = format!("no body gives a step `{}`", quoted(name));
-            let remedy = format!("take `a(x, v)`, `target`, {}", known.join(", "));
-            return fault(span, what, remedy);
-        }
+        let setting = Input::ALL.iter().find(|(known, _)| *known == name).map(|(_, input)| *input);
+        let index = match name {
+            "target" => {
+                self.takes_target = true;
+                Some(TARGET)
+            }
+            _ if setting.is_some() => {
+                self.method_at.get_or_insert(span.clone());
+                self.declare(span.clone(), false, false)?;
+                let index = self.index(name).unwrap_or(X);
+                self.values[index] = Some(0);
+                Some(index)
+            }
+            _ if ACCELERATION.contains(&name) => None,
+            _ => {
+                let known: Vec<&str> = Input::ALL.iter().map(|(name, _)| *name).collect();
+                let what = format!("no body gives a step `{}`", quoted(name));
+                let remedy = format!("take `a(x, v)`, `target`, {}", known.join(", "));
+                return fault(span, what, remedy);
+            }
+        };
+        self.inputs.push(Taken { input: setting, name: index, is_whole, span });
         Ok(())
     }
 
@@ -75,7 +84,7 @@ impl Reader<'_> {
             return fault(name, what, "use fewer");
         }
         let mut reader = Reader::new(self.text, self.method_at.clone(), Vec::new());
-        reader.is_function = true;
+        (reader.is_function, reader.has_begun) = (true, true);
         let (mut takes, mut at) = (Vec::new(), inputs.start);
         while at < inputs.end {
             let rest = &self.text[at..inputs.end];
@@ -108,7 +117,8 @@ impl Reader<'_> {
         reader.functions = std::mem::take(&mut self.functions);
         reader.read_all(&all[lines])?;
         let Reader { names, lines, functions, .. } = reader;
-        if !matches!(lines.last(), Some(Line::Return(_))) {
+        let is_line = |line: &&Line| !matches!(line, Line::Remark(_) | Line::Blank);
+        if !matches!(lines.iter().rfind(is_line), Some(Line::Return(_))) {
             return fault(name, "the function can end without a value", "end it with `return x`");
         }
         self.functions = functions;
@@ -117,6 +127,8 @@ impl Reader<'_> {
             inputs: takes,
             names,
             lines,
+            remarks: std::mem::take(&mut self.remarks),
+            shared: None,
             general: None,
         });
         Ok(())
@@ -136,10 +148,11 @@ impl Reader<'_> {
         let (text, _) = plain(source);
         let before = self.functions.len();
         let mut reader = Reader::new(&text, Some(0..0), std::mem::take(&mut self.functions));
-        reader.read_all(&statements(&text)?)?;
+        reader.read_all(&statements(&text, source)?)?;
         self.functions = reader.functions;
         for function in &mut self.functions[before..] {
             function.general = General::of(&function.name);
+            function.shared = Some(source);
         }
         Ok(())
     }

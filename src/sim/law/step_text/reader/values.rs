@@ -75,8 +75,8 @@ impl Reader<'_> {
 
     /// Adds the operations of an expression, which read the current numbers of the names. Returns the node of its
     /// value.
-    pub(super) fn splice(&mut self, expression: &Expression, at: usize) -> usize {
-        let at = at..at;
+    pub(super) fn splice(&mut self, expression: &Expression) -> usize {
+        let at = expression.spans.last().map_or(0..0, |span| span.start..span.start);
         let mut read: Vec<(usize, usize)> = Vec::new();
         for node in expression.nodes.iter().filter(|node| node.op == Op::Input) {
             if !read.iter().any(|(name, _)| *name == node.index) {
@@ -86,13 +86,12 @@ impl Reader<'_> {
         let (before, tables) = (self.nodes.nodes.len(), self.nodes.tables.len());
         let zero = Node::new(Op::Number, &[]);
         for (node, span) in expression.nodes.iter().zip(&expression.spans) {
-            let span = at.start + span.start..at.start + span.end;
             let mut node = node.after(before);
             if node.op.is_table() {
                 node.index += tables;
             }
             // A zero is a placeholder for an input, because operations read the name's current number instead.
-            self.push(if node.op == Op::Input { zero } else { node }, &span);
+            self.push(if node.op == Op::Input { zero } else { node }, span);
         }
         self.nodes.tables.extend(expression.tables.iter().cloned());
         let number_of = |node: usize| {

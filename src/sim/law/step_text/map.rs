@@ -1,0 +1,64 @@
+//! The map of a step of a rule, with its derivatives and the pieces of its switches.
+
+use super::{H, StepText, SwitchKind, TARGET};
+use crate::sim::law::jet::Jet;
+
+/// The carried numbers after a step, and their derivatives with respect to each carried number and then the target.
+#[derive(Clone, Debug, PartialEq)]
+pub struct StepMap {
+    /// The carried numbers, in the order of [`StepText::carried`].
+    pub values: Vec<f64>,
+    /// One column of derivatives per carried number, then one for the target.
+    pub columns: Vec<Vec<f64>>,
+}
+
+impl StepText {
+    /// Returns the map of a step of `h` seconds at these carried numbers and this target, with its exact derivatives.
+    pub fn map(&self, h: f64, at: &[f64], target: f64) -> StepMap {
+        self.map_on(&[], h, at, target)
+    }
+
+    /// Returns the map on the piece with these modes of the switches, continued beyond its boundaries.
+    pub(crate) fn map_on(&self, modes: &[i64], h: f64, at: &[f64], target: f64) -> StepMap {
+        let inputs = self.carried.iter().map(|carried| carried.input).chain([TARGET]);
+        let mut slots: Vec<Jet> = vec![[0.0; 3]; self.tape.slots];
+        let mut values = Vec::new();
+        let mut column = |input: usize| {
+            slots[H] = [h, 0.0, 0.0];
+            slots[TARGET] = [target, 0.0, 0.0];
+            for (carried, value) in self.carried.iter().zip(at) {
+                slots[carried.input] = [*value, 0.0, 0.0];
+            }
+            slots[input][1] = 1.0;
+            self.tape.evaluate_jets_on(modes, &mut slots);
+            let outputs = self.tape.outputs.iter().map(|slot| slots[*slot as usize]);
+            values = outputs.clone().map(|[value, ..]| value).collect();
+            outputs.map(|[_, slope, _]| slope).collect()
+        };
+        let columns = inputs.map(&mut column).collect();
+        StepMap { values, columns }
+    }
+}
+
+impl StepText {
+    /// Returns the modes of the switches in a step of `h` seconds from these carried numbers.
+    pub(crate) fn modes(&self, h: f64, at: &[f64], target: f64) -> Vec<i64> {
+        let mut slots = vec![0.0; self.tape.slots];
+        (slots[H], slots[TARGET]) = (h, target);
+        for (carried, value) in self.carried.iter().zip(at) {
+            slots[carried.input] = *value;
+        }
+        self.tape.prepare::<1>(slots.as_chunks_mut().0);
+        self.tape.evaluate(&mut slots);
+        let mut modes = vec![0; self.tape.switches()];
+        self.tape.write_modes(&slots, &mut modes);
+        modes
+    }
+
+    /// Returns the source of each switch of the lines, with its kind.
+    pub(crate) fn switches(&self) -> impl Iterator<Item = (SwitchKind, &str)> {
+        self.tape
+            .switch_origins()
+            .map(|(kind, span)| (kind, self.source.get(span.clone()).unwrap_or_default().trim()))
+    }
+}
