@@ -125,8 +125,13 @@ pub(super) const LANGUAGE_OR_CPP: Id<Language> = Id {
     thing: LANGUAGE.thing,
     lists: &[],
     all: || (LANGUAGE.all)().into_iter().chain([("cpp".into(), Language::C)]).collect(),
-    spellings: || vec![("c++", "cpp"), ("c#", "csharp")],
+    spellings: languages_by_other_names,
 };
 
 pub(super) const LANGUAGE: Id<Language> =
     Id::new("language", || Language::ALL.map(|language| (language.id().into(), language)).into());
+
+/// Other names of languages, each with its id.
+pub(super) fn languages_by_other_names() -> Vec<(&'static str, &'static str)> {
+    vec![("c++", "cpp"), ("c#", "csharp"), ("js", "javascript"), ("luau", "lua")]
+}

@@ -4,7 +4,7 @@ use clap::Args;
 
 use super::error::Error;
 use super::help::flowing;
-use super::id::{Id, LANGUAGE, METHOD, POLICY};
+use super::id::{Id, LANGUAGE, METHOD, POLICY, languages_by_other_names};
 use super::output::print;
 use super::own_method::OrStepFile;
 use super::terminal::print_status;
@@ -104,7 +104,7 @@ const CODE_LANGUAGE: Id<CodeLanguage> = Id {
         let others = [("cpp", CodeLanguage::Cpp), ("step", CodeLanguage::Step)];
         methods.chain(others.map(|(id, language)| (id.into(), language))).collect()
     },
-    spellings: || vec![("c++", "cpp"), ("c#", "csharp")],
+    spellings: languages_by_other_names,
 };
 
 impl CodeLanguage {

@@ -2,7 +2,6 @@
 
 use std::ops::Range as Span;
 
-use super::clip::clip;
 use super::described::{BodyDraft, check_method};
 use super::errors::SceneError;
 use super::fault::{FaultKind, SceneFault};
@@ -10,17 +9,23 @@ use super::keys::{
     JOINT_HZ, Key, METHOD, SPEC, STEP_S, SUBSTEPS, TICK_HZ, TOLERANCE, adaptive_methods, number,
     numbers, quoted, read_lane_spec, read_tolerance, replace_if_read, step_s, tick_hz,
 };
-use super::nearest::{listed, nearest, offer};
+use super::nearest::listed;
 use super::table::Table;
 use super::wanted::{Field, Wanted};
 use super::{
     Action, Check, LAST_TICK, LaneId, LaneSpec, MAX_LANES, MAX_NAME_CHARS, MAX_SECONDS, Scene,
     Scripted,
 };
-use crate::scene::edit::edited_values;
 use crate::sim::TickRate;
-use crate::sim::bodies::{BODIES, MAX_VALUE, Parameter, Range, TakesEffect};
+use crate::sim::bodies::{BODIES, MAX_VALUE, Range};
 use crate::sim::integrators::Method;
+
+pub(super) use of_a_body::OF_A_BODY;
+use of_a_body::{
+    BODY, KEY, MAX_PULL_TICKS, Q, V, VALUE, on_each_tick, pull, read_place, read_push, read_set,
+};
+
+mod of_a_body;
 
 /// The name of the table array of a script.
 pub(super) const COMMAND: &str = "command";
@@ -43,16 +48,6 @@ pub(super) const TICK: Field = Field::optional(
 );
 pub(super) const LANE: Field =
     Field::optional("lane", "the lane whose method, substeps or tolerance it sets", LANE_NUMBER);
-
-const BODY: Field = Field::required("body", "the body's name", NAME);
-const KEY: Field = Field::required("key", "the parameter's key", NAME);
-const VALUE: Field = Field::required("value", "its new value", Wanted::ANY);
-const Q: Field = Field::required("q", "the coordinates", Wanted::Numbers(1));
-const V: Field = Field::required("v", "the velocities", Wanted::Numbers(1));
-const BY: Field = Field::required("by", "the changes of the velocities", Wanted::Numbers(1));
-/// The keys of `set`, `place` and `push`.
-pub(super) static OF_A_BODY: [(&str, &[Field]); 3] =
-    [("set", &[BODY, KEY, VALUE]), ("place", &[BODY, Q, V]), ("push", &[BODY, BY])];
 
 /// The keys of `[[check]]`. The reader needs the number of lanes.
 pub(super) static CHECK: [Key<(Check, usize), Check>; 3] = [
@@ -216,8 +211,7 @@ pub(super) static COMMAND_KEYS: [CommandKey; 12] = [
         },
         |scene, action| {
             let Action::Push { body, by } = action else { return None };
-            let name = quoted(&scene.bodies[*body].name);
-            Some(inline(&[(BODY, name), (BY, numbers(by))]))
+            Some(pull(scene, *body, by, 1))
         },
     ),
     command_key(
@@ -243,16 +237,41 @@ pub(super) fn parameter_value(range: Range, value: f64) -> String {
     }
 }
 
-/// Returns the tables of the commands of `scene`, in ticks for a recording and in seconds otherwise.
-pub(super) fn command_tables(scene: &Scene) -> impl Iterator<Item = String> {
+/// Returns the tables of the commands of `scene`, in ticks for a recording and in seconds otherwise. In a recording, a
+/// pull is one command.
+pub(super) fn command_tables(scene: &Scene) -> Vec<String> {
     let is_recording = !scene.checks.is_empty();
-    scene.script.iter().zip(scene.script_on_ticks()).map(move |(row, (tick, _))| {
+    let rows: Vec<_> = scene.script.iter().zip(scene.script_on_ticks()).collect();
+    let mut tables = Vec::new();
+    let mut rest = &rows[..];
+    while let [(row, (tick, _)), ..] = rest {
         let when = match is_recording {
             true => format!("{} = {tick}", TICK.key),
             false => format!("{} = {}", AT_S.key, number(row.at_s)),
         };
-        command_table(scene, &when, &row.action)
-    })
+        let mut by = Vec::new();
+        let pulls = rest.iter().zip(*tick..).take(MAX_PULL_TICKS).map_while(|(next, wanted)| {
+            let (Action::Push { body: first, .. }, Action::Push { body, by: more }) =
+                (&row.action, &next.0.action)
+            else {
+                return None;
+            };
+            (is_recording && body == first && next.1.0 == wanted)
+                .then(|| by.extend_from_slice(more))
+        });
+        match (pulls.count(), &row.action) {
+            (ticks @ 2.., Action::Push { body, .. }) => {
+                let value = pull(scene, *body, &by, ticks);
+                tables.push(format!("\n[[{COMMAND}]]\n{when}\npush = {value}\n"));
+                rest = &rest[ticks..];
+            }
+            _ => {
+                tables.push(command_table(scene, &when, &row.action));
+                rest = &rest[1..];
+            }
+        }
+    }
+    tables
 }
 
 fn command_table(scene: &Scene, when: &str, action: &Action) -> String {
@@ -280,6 +299,17 @@ enum When {
     Tick(u64),
 }
 
+impl When {
+    /// Returns the time this many ticks later.
+    fn after(self, ticks: u64, tick_hz: TickRate) -> Self {
+        match self {
+            When::Second(at_s) if ticks > 0 => When::Second(at_s + ticks as f64 / tick_hz.hz()),
+            When::Second(at_s) => When::Second(at_s),
+            When::Tick(tick) => When::Tick((tick + ticks).min(LAST_TICK)),
+        }
+    }
+}
+
 /// A command as read from the file.
 struct Command {
     when: When,
@@ -304,12 +334,15 @@ pub(super) fn read(
         let [tick, at_s, tolerance_span] =
             [TICK.key, AT_S.key, TOLERANCE.key].map(|key| row.span(key));
         let when_span = if row.has(TICK.key) { tick } else { at_s };
-        let command = when.zip(action);
-        commands.extend(command.map(|(when, action)| Command {
-            when,
+        let Some((when, action)) = when.zip(action) else {
+            top.add_faults_of(row);
+            continue;
+        };
+        commands.extend((0..).zip(on_each_tick(context, action)).map(|(after, action)| Command {
+            when: when.after(after, context.tick_hz),
             action,
-            when_span,
-            tolerance_span,
+            when_span: when_span.clone(),
+            tolerance_span: tolerance_span.clone(),
         }));
         top.add_faults_of(row);
     }
@@ -484,82 +517,6 @@ fn read_method(context: &SceneContext<'_>, row: &mut Table<'_>) -> Option<Action
         return Some(Action::Lane { lane, spec: spec? });
     }
     spec.map(|spec| Action::Method(spec.method))
-}
-
-/// Reads the name of a body, and returns the body with its index in the scene.
-fn read_body<'d>(
-    context: &SceneContext<'d>,
-    table: &mut Table<'_>,
-) -> Option<(usize, &'d BodyDraft)> {
-    let name = table.text(&BODY)?;
-    let is_called = |body: &BodyDraft| body.name.as_ref() == Some(&name);
-    let Some(index) = context.bodies.iter().position(is_called) else {
-        let known = context.bodies.iter().filter_map(|body| body.name.as_deref());
-        let remedy = format!("write one of {}", listed(&known.collect::<Vec<_>>(), '"', ", "));
-        let what = format!("no body of this scene is called {:?}", clip(&name));
-        table.report_fault(table.span(BODY.key), what, remedy);
-        return None;
-    };
-    Some((index, &context.bodies[index]))
-}
-
-fn read_set(context: &SceneContext<'_>, set: &mut Table<'_>) -> Option<Action> {
-    let body = read_body(context, set);
-    let key = set.text(&KEY);
-    set.allow_key(VALUE.key);
-    let (index, BodyDraft { kind, values, .. }) = body?;
-    let (key, kind) = (key?, kind.as_ref()?);
-    let Some((parameter, Parameter { key: known, range, acts, .. })) = kind.parameter(&key) else {
-        let known: Vec<&str> = kind.parameters.iter().map(|parameter| &*parameter.key).collect();
-        let nearest = nearest(&key, known.iter().map(|name| (*name, *name)));
-        let what = format!("{:?} is no parameter of this body", clip(&key));
-        set.report_fault(set.span(KEY.key), what, offer(nearest, &known, '"'));
-        return None;
-    };
-    if *acts == TakesEffect::AtStart {
-        let at_once =
-            kind.parameters.iter().filter(|parameter| parameter.acts == TakesEffect::AtOnce);
-        let settable: Vec<&str> = at_once.map(|parameter| &*parameter.key).collect();
-        let remedy = format!(
-            "write it in the body's table, move the body by `place`, or set one of {}",
-            listed(&settable, '"', ", ")
-        );
-        let what = format!("`{known}` acts at the start only, and a command comes later");
-        set.report_fault(set.span(KEY.key), what, remedy);
-        return None;
-    }
-    let field = Field { wanted: Wanted::of(*range), ..VALUE };
-    let value = match *range {
-        Range::Count(_) => f64::from(set.whole::<u32>(&field)?),
-        _ => set.number(&field)?,
-    };
-    // The other values are those of the body's table, even if an earlier command has changed them.
-    if let Some(values) = values
-        && let Err(error) = edited_values(kind, values, parameter, value)
-        && let Some(fault) = error.fault()
-    {
-        set.add_fault(set.span(VALUE.key), fault.into());
-    }
-    Some(Action::Set { body: index, parameter, value })
-}
-
-fn read_place(context: &SceneContext<'_>, place: &mut Table<'_>) -> Option<Action> {
-    let body = read_body(context, place);
-    [Q, V].iter().for_each(|field| place.allow_key(field.key));
-    let (at, BodyDraft { kind, values, .. }) = body?;
-    let count = kind.as_ref()?.coordinates(values.as_ref()?).len();
-    let mut read = |field| place.coordinates(&Field { wanted: Wanted::Numbers(count), ..field });
-    let (q, v) = (read(Q), read(V));
-    Some(Action::Place { body: at, q: q?.into(), v: v?.into() })
-}
-
-fn read_push(context: &SceneContext<'_>, push: &mut Table<'_>) -> Option<Action> {
-    let body = read_body(context, push);
-    push.allow_key(BY.key);
-    let (at, BodyDraft { kind, values, .. }) = body?;
-    let count = kind.as_ref()?.coordinates(values.as_ref()?).len();
-    let by = push.coordinates(&Field { wanted: Wanted::Numbers(count), ..BY })?;
-    Some(Action::Push { body: at, by: by.into() })
 }
 
 /// Reads the states that lanes must reach.

@@ -348,7 +348,7 @@ impl StepText {
     /// velocity of 1 and without a force. In a loop or a function it is the middle of the step, unless a line
     /// `held: at its start`, or `end`, tells otherwise.
     pub(super) fn timed(mut self) -> Self {
-        let held = self.source.lines().find_map(|line| line.strip_prefix("held: at its "));
+        let held = self.claim("held").and_then(|held| held.strip_prefix("at its "));
         let held = held.map_or(0.5, |held| if held.starts_with("start") { 0.0 } else { 1.0 });
         let mut times = vec![f64::NAN; self.machine.calls.len()];
         if self.machine.calls.iter().any(|call| !call.is_repeated) {

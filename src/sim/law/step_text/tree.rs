@@ -91,13 +91,9 @@ impl StepText {
     }
 
     /// Returns the words of the text on a claim of its card, which are a line such as `order: 2 on a spring`.
-    pub(crate) fn claim(&self, claim: &str) -> Option<&str> {
-        let words =
-            |line: &'_ str| Some(line.strip_prefix(claim)?.strip_prefix(": ")?.trim().len());
+    pub(crate) fn claim<'t>(&'t self, claim: &str) -> Option<&'t str> {
         let mut lines = self.source.lines();
-        lines.find_map(|line| {
-            words(line).map(|length| &line.trim_end()[line.trim_end().len() - length..])
-        })
+        lines.find_map(|line| Some(line.strip_prefix(claim)?.strip_prefix(": ")?.trim()))
     }
 
     /// Whether a line has the length of a step.
@@ -280,13 +276,17 @@ impl<'t> StepBody<'t> {
 
     /// Whether an expression is made of whole literals and counters.
     fn counts(self, value: &Expression) -> bool {
-        let counters = |name: usize| {
-            let is_counter = |line: &Line| matches!(line, Line::Assign { name: other, declares: Some(Declares::Counter), .. } if *other == name);
-            self.lines().iter().any(is_counter)
+        let is_counter = |name: usize| {
+            self.lines().iter().any(|line| match line {
+                Line::Assign { name: other, declares: Some(Declares::Counter), .. } => {
+                    *other == name
+                }
+                _ => false,
+            })
         };
         value.nodes.iter().all(|node| match node.op {
-            Op::Number => node.number.fract() == 0.0 && node.number.abs() < 1e9,
-            Op::Input => counters(node.index),
+            Op::Number => is_whole_literal(node.number),
+            Op::Input => is_counter(node.index),
             op => WHOLE.contains(&op),
         })
     }
@@ -300,7 +300,7 @@ impl<'t> StepBody<'t> {
         for node in nodes {
             let operands = node.arguments().iter().map(|operand| can[*operand]);
             can.push(match node.op {
-                Op::Number => [node.number.fract() == 0.0 && node.number.abs() < 1e9, false],
+                Op::Number => [is_whole_literal(node.number), false],
                 Op::Input => [self.is_whole(node.index); 2],
                 op if WHOLE.contains(&op) => {
                     operands.fold([true, false], |all, it| [all[0] && it[0], all[1] || it[1]])
@@ -354,30 +354,24 @@ impl<'t> StepBody<'t> {
             }
             Op::Power => Operation::Call { function: "pow", arguments: operands },
             op => {
+                // The reader turns `a > b` into `b < a`.
                 let is_swapped = op.is_truth() && spans[0].start > spans[1].start;
                 let infix = |swapped| {
                     let is_it = |infix: &&Infix| infix.op == op && infix.is_swapped == swapped;
                     INFIXES.iter().find(is_it)
                 };
-                match infix(is_swapped)
-                    .map(|infix| (infix, is_swapped))
-                    .or(infix(false).map(|infix| (infix, false)))
-                {
-                    Some((infix, is_swapped)) => {
-                        let [first, second] = if is_swapped { [1, 0] } else { [0, 1] };
-                        let between = spans[first].end..spans[second].start;
-                        let between = self.source().get(between).unwrap_or_default();
-                        Operation::Infix {
-                            sign: infix.sign,
-                            level: infix.level,
-                            operands: [[a, b][first], [a, b][second]],
-                            breaks: between.contains('\n'),
-                        }
-                    }
-                    None => {
-                        let function = name_of(op).unwrap_or_default();
-                        Operation::Call { function, arguments: operands }
-                    }
+                let Some(infix) = infix(is_swapped).or_else(|| infix(false)) else {
+                    let function = name_of(op).unwrap_or_default();
+                    return Operation::Call { function, arguments: operands };
+                };
+                let [first, second] = if infix.is_swapped { [1, 0] } else { [0, 1] };
+                let between = spans[first].end..spans[second].start;
+                let between = self.source().get(between).unwrap_or_default();
+                Operation::Infix {
+                    sign: infix.sign,
+                    level: infix.level,
+                    operands: [[a, b][first], [a, b][second]],
+                    breaks: between.contains('\n'),
                 }
             }
         }
@@ -412,6 +406,11 @@ impl<'t> StepBody<'t> {
 
 /// Operations on whole numbers whose value is whole.
 const WHOLE: [Op; 4] = [Op::Add, Op::Subtract, Op::Multiply, Op::Negate];
+
+/// Whether a number can be a whole one of 32 bits.
+fn is_whole_literal(number: f64) -> bool {
+    number.fract() == 0.0 && number.abs() < 1e9
+}
 
 /// Whether an operation is `!=`.
 fn is_unequal(op: Op) -> bool {
