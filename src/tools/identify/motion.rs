@@ -87,11 +87,12 @@ pub(super) fn run_by_map(
     ticks: impl Iterator<Item = u64>,
 ) -> Option<Vec<[f64; 2]>> {
     let rest = body.rest.unwrap_or(0.0);
-    let body = LoggedBody { rest: None, ..body.clone() };
-    let after = |start| Some(*run(candidate, &body, start, tick_s, 0..2)?.last()?);
-    let [still, of_x, of_v] = [after([0.0; 2])?, after([SLOW, 0.0])?, after([0.0, SLOW])?];
-    let column = |after: [f64; 2]| [0, 1].map(|i| (after[i] - still[i]) / SLOW);
-    let (of_x, of_v) = (column(of_x), column(of_v));
+    let pushed = LoggedBody { rest: None, ..body.clone() };
+    let free = LoggedBody { push: 0.0, ..pushed.clone() };
+    let after = |body, start| Some(*run(candidate, body, start, tick_s, 0..2)?.last()?);
+    let still = after(&pushed, [0.0; 2])?;
+    let of_x = after(&free, [SLOW, 0.0])?.map(|change| change / SLOW);
+    let of_v = after(&free, [0.0, SLOW])?.map(|change| change / SLOW);
     let ([mut x, mut v], mut now, mut first) = ([start[0] - rest, start[1]], 0, None);
     let mut states = Vec::with_capacity(ticks.size_hint().0);
     for tick in ticks {
