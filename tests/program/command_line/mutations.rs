@@ -129,7 +129,7 @@ fn input(dice: &mut Dice, folder: &Path, links: &[String]) -> Vec<String> {
         let text = texts[dice.below(texts.len())];
         mutated(dice, text)
     };
-    let language = ["rust", "c", "cpp", "csharp", "gdscript"][dice.below(5)];
+    let language = ["rust", "c", "cpp", "csharp", "gdscript", "javascript", "lua"][dice.below(7)];
     let words: Vec<String> = match dice.below(6) {
         0 => {
             vec!["show".into(), file("m.step", &one(dice, METHODS)), "--as".into(), language.into()]

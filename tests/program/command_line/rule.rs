@@ -66,10 +66,12 @@ fn a_spring_without_dt_is_twice_as_fast_at_twice_the_rate() {
         ("cpp", "cos("),
         ("csharp", "Math.Cos"),
         ("gdscript", "cos("),
+        ("javascript", "Math.cos("),
+        ("lua", "math.cos("),
     ] {
         assert!(code[language].as_str().unwrap().contains(part), "{language}: {found}");
     }
-    assert_eq!(code.len(), 5);
+    assert_eq!(code.len(), 7);
 }
 
 #[test]
