@@ -528,7 +528,7 @@ fn each_coordinate_of_a_log_is_answered() {
     assert!(of_y.contains("halves in 0.5000 s and ends at 2.000 m"), "{text}");
     assert!(said.contains("z: ") && said.contains("nothing moves"), "{said}");
     let output = run_in(folder.path(), "identify log.csv --format json");
-    let found: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    let found: Value = serde_json::from_slice(&output.stdout).unwrap();
     let half_life = &found["others"]["y"]["chase_half_life_s"];
     assert!(half_life.as_f64().is_some_and(|s| (s - 0.5).abs() < 1e-4), "{half_life}");
     // The velocity of x is not that of y.
