@@ -42,9 +42,11 @@ async fn beside(found: Comparison, [own, truth]: [&BodyTruth; 2], tick_hz: TickR
         .and_then(|(own, truth)| truth.frequency_error(&own.crossings))
         .map(|error| (1.0 + error) * (1.0 + own_frequency) - 1.0);
     let shift = swings.map_or(0.0, |(own, truth)| own.lead_s(truth));
-    // Exact motions in two wells can have one width and one frequency, and be apart by more than a shift makes.
-    let is_of_phase = swings.is_none_or(|(_, truth)| {
-        distance.error <= TOLERANCE || truth.error_when(shift) >= distance.error / 2.0
+    // Exact motions in two wells can share a width and a frequency. No shift between them explains their distance.
+    let is_of_phase = swings.is_none_or(|(_, truth_swing)| {
+        let drift = frequency_error.unwrap_or(0.0) * truth.horizon_s;
+        let expected = truth_swing.error_when(shift.abs() + drift.abs()) + 2.0 * VISIBLE;
+        expected >= distance.error / 2.0
     });
     let is_alike = match width {
         Some(width) if swings.is_some() => {

@@ -548,7 +548,9 @@ engine\t''"
 complete -c regatta -n "__fish_regatta_using_subcommand advise" -l as -d 'Print the recommended method as code too' -r -f -a "rust\t''
 c\t''
 csharp\t''
-gdscript\t''"
+gdscript\t''
+javascript\t''
+lua\t''"
 complete -c regatta -n "__fish_regatta_using_subcommand advise" -l format -d 'The format: text or json' -r -f -a "text\t'Aligned columns, for people'
 json\t'An array of objects, for programs'"
 complete -c regatta -n "__fish_regatta_using_subcommand advise" -l rates -d 'Also find the slowest tick rates'
@@ -937,6 +939,21 @@ motion\t''
 motion-duration\t''
 slint\t''
 gpui\t''
+popmotion\t''
+react-native\t''
+react-native-bounciness\t''
+react-native-stiffness\t''
+reanimated\t''
+reanimated-duration\t''
+remotion\t''
+anime\t''
+wobble\t''
+svelte\t''
+solid\t''
+libadwaita\t''
+niri\t''
+hyprland\t''
+qt\t''
 unity-smooth-damp\t''
 per-frame\t''"
 complete -c regatta -n "__fish_regatta_using_subcommand port" -l decimation -d 'How many ticks a drive in user code holds its force' -r
@@ -960,6 +977,7 @@ complete -c regatta -n "__fish_regatta_using_subcommand port" -l where -d 'Take 
 complete -c regatta -n "__fish_regatta_using_subcommand port" -l separator -d 'The separator of the cells: a character, tab or space [default: found]' -r
 complete -c regatta -n "__fish_regatta_using_subcommand port" -l format -d 'The format: text or json' -r -f -a "text\t'Aligned columns, for people'
 json\t'An array of objects, for programs'"
+complete -c regatta -n "__fish_regatta_using_subcommand port" -l ends -d 'When each user interface ends the motion, and how much of the way is left then'
 complete -c regatta -n "__fish_regatta_using_subcommand port" -l drive -d 'The limits of a drive with these gains'
 complete -c regatta -n "__fish_regatta_using_subcommand port" -l no-header -d 'The first line is already a row'
 complete -c regatta -n "__fish_regatta_using_subcommand port" -s h -l help -d 'Print help (see more with \'--help\')'
@@ -968,19 +986,23 @@ complete -c regatta -n "__fish_regatta_using_subcommand rule" -l dt -d 'The unit
 ms\t''
 us\t''"
 complete -c regatta -n "__fish_regatta_using_subcommand rule" -l within -d 'The fraction of the way, or of the speed, within which it has settled: 0.01 if left out' -r
-complete -c regatta -n "__fish_regatta_using_subcommand rule" -l as -d 'The language of the code: rust, c, cpp, csharp or gdscript' -r -f -a "rust\t''
+complete -c regatta -n "__fish_regatta_using_subcommand rule" -l as -d 'The language of the code: rust, c, cpp, csharp, gdscript, javascript or lua' -r -f -a "rust\t''
 c\t''
 csharp\t''
 gdscript\t''
+javascript\t''
+lua\t''
 cpp\t''"
 complete -c regatta -n "__fish_regatta_using_subcommand rule" -l format -d 'The format: text or json' -r -f -a "text\t'Aligned columns, for people'
 json\t'An array of objects, for programs'"
 complete -c regatta -n "__fish_regatta_using_subcommand rule" -l scene -d 'Print a scene instead, which races the lines at half, once and twice that rate'
 complete -c regatta -n "__fish_regatta_using_subcommand rule" -s h -l help -d 'Print help (see more with \'--help\')'
-complete -c regatta -n "__fish_regatta_using_subcommand show" -l as -d 'The language: rust, c, cpp, csharp, gdscript or step' -r -f -a "rust\t''
+complete -c regatta -n "__fish_regatta_using_subcommand show" -l as -d 'The language: rust, c, cpp, csharp, gdscript, javascript, lua or step' -r -f -a "rust\t''
 c\t''
 csharp\t''
 gdscript\t''
+javascript\t''
+lua\t''
 cpp\t''
 step\t''"
 complete -c regatta -n "__fish_regatta_using_subcommand show" -l float -d 'Use single precision, as Unity and Godot do'

@@ -81,7 +81,7 @@ fn a_misspelt_name_gets_the_nearest_suggestion() {
         ("show runge-kutta", "did you mean rk4?"),
         ("show x", "no such method or policy. `regatta list methods`"),
         ("show fixed-liner", "did you mean fixed-linear?"),
-        ("show rk4 --as cobol", "There are rust, c, csharp, gdscript, cpp"),
+        ("show rk4 --as cobol", "There are rust, c, csharp, gdscript, javascript, lua, cpp"),
         ("show rk4 --as csharpp", "did you mean csharp?"),
     ] {
         let said_so = refusal(arguments, 2);
