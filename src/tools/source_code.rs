@@ -21,7 +21,7 @@ pub use crate::sim::law::MethodInput;
 use crate::sim::law::StepText;
 
 pub use dialect::{Language, Precision};
-pub(super) use printer::{RULE_STEP, rule_lines};
+pub(super) use printer::{RULE_STEP, rule_lines, rule_names};
 
 mod declarations;
 mod dialect;

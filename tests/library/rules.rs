@@ -204,6 +204,13 @@ fn exactly_the_linear_rules_have_a_closed_form() {
 }
 
 #[test]
+fn a_closed_form_writes_out_no_power_of_its_lines() {
+    let power = (0..8).fold("0.99".to_owned(), |power, _| format!("({power}^16)"));
+    let rule = format!("let k = {power}; x += (target - x) * 0.1 + 0*k");
+    assert_eq!(code(&rule, Language::Rust).steps_because, None);
+}
+
+#[test]
 fn generated_rust_matches_its_rule_at_every_frame_rate() {
     let folder = build_folder("rules-rust");
     let (source, program) = (folder.join("driver.rs"), folder.join("driver"));

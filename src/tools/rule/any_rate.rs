@@ -4,7 +4,7 @@ use nalgebra::{Matrix2, Vector2};
 
 use super::{Piece, Rule};
 use crate::sim::law::{AT_TARGET, Frame, NO_RETURN, Powers, SwitchKind};
-use crate::tools::source_code::{Language, RULE_STEP, rule_code, rule_lines};
+use crate::tools::source_code::{Language, RULE_STEP, rule_code, rule_lines, rule_names};
 
 /// If the logarithms of the eigenvalues are this far apart, the code has two exponentials. If they are closer, the
 /// difference of the exponentials would be rounding.
@@ -73,15 +73,9 @@ impl Rule {
         }
     }
 
-    /// Returns the name of each carried number in the source.
-    fn names(&self) -> Vec<String> {
-        let (_, names) = rule_lines(&self.text);
-        self.text.carried().iter().map(|carried| names[carried.input()].clone()).collect()
-    }
-
     /// Returns the names of the numbers that move.
     fn state_names(&self) -> Vec<String> {
-        let names = self.names();
+        let names = rule_names(&self.text);
         self.state.iter().map(|index| names[*index].clone()).collect()
     }
 
@@ -91,7 +85,7 @@ impl Rule {
         if takes_target {
             head += "takes target: where it goes\n";
         }
-        let names = self.names();
+        let names = rule_names(&self.text);
         for index in carried.filter(|index| *index > 1) {
             let name = names[index].trim_start_matches("memory.");
             head += &format!("memory {name} = {:?}\n", self.text.carried()[index].start);
@@ -148,7 +142,7 @@ impl Rule {
             let lines = piece.rule.first_order(&frame).ok()?;
             (chases && frame.offset.x == 0.0).then(|| lines.concat())
         };
-        let (lines, _) = rule_lines(&self.text);
+        let lines = rule_lines(&self.text).ok()?;
         let mut lines = lines.iter().filter(|line| !line.starts_with('#'));
         let condition = lines.next()?.strip_prefix("if ").filter(|it| !it.contains(RULE_STEP))?;
         let [first, second] = [line(first)?, line(second)?];
@@ -157,7 +151,7 @@ impl Rule {
     }
 
     fn first_order(&self, frame: &Frame) -> Result<Vec<String>, NoClosedForm> {
-        let x = &self.names()[self.state[0]];
+        let x = &self.state_names()[0];
         let (kept, by_target, offset) = (frame.map.m11, frame.by_target.x, frame.offset.x);
         if kept <= 0.0 {
             return Err(NoClosedForm::Flips);
@@ -266,10 +260,7 @@ impl Rule {
     }
 
     fn fixed_steps(&self) -> Result<String, String> {
-        if let Some(reason) = self.text.unwritable() {
-            return Err(reason.to_owned());
-        }
-        let (lines, _) = rule_lines(&self.text);
+        let lines = rule_lines(&self.text)?;
         let shown = &self.state_names()[0];
         let mut source =
             "memory unspent = 0.0\nmemory before = nan\nmemory shown = nan\n".to_owned();

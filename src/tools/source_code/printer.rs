@@ -1,7 +1,7 @@
 //! Prints a step in a language, line by line.
 
 use super::declarations::{Declaration, declarations};
-use super::dialect::{Dialect, Language, Precision, pascal};
+use super::dialect::{Dialect, Language, Precision, STEP, pascal};
 use super::expression::{Names, Spellings, spellings};
 use crate::sim::law::{Level, Line, MethodInput, StepBody, StepText};
 use crate::sim::text::hides_or_breaks;
@@ -39,16 +39,24 @@ pub(super) fn print(
     printer.text
 }
 
-/// Returns the lines of a rule in the language of steps, and the name of each of its numbers there.
-pub(in crate::tools) fn rule_lines(text: &StepText) -> (Vec<String>, Vec<String>) {
-    let (language, precision, dialect) = (Language::Rust, Precision::Double, &super::dialect::STEP);
+/// Returns the lines of a rule in the language of steps.
+///
+/// # Errors
+/// The reason why they cannot be printed, as a clause.
+pub(in crate::tools) fn rule_lines(text: &StepText) -> Result<Vec<String>, &'static str> {
+    if let Some(reason) = text.unwritable() {
+        return Err(reason);
+    }
+    let (language, precision, dialect) = (Language::Rust, Precision::Double, &STEP);
     let mut printer = Printer { language, dialect, precision, text: String::new(), depth: 0 };
-    let mut file = File::new(text, dialect, precision, "");
-    file.spellings.insert("h", RULE_STEP.into());
-    let names = file.step();
-    let all = (0..text.body().names().len()).map(|index| names.name(index)).collect();
-    printer.print_body(names);
-    (printer.text.lines().map(str::to_owned).collect(), all)
+    printer.print_body(File::of_rule(text).step());
+    Ok(printer.text.lines().map(str::to_owned).collect())
+}
+
+/// Returns the name of each carried number of a rule in [its lines](rule_lines).
+pub(in crate::tools) fn rule_names(text: &StepText) -> Vec<String> {
+    let file = File::of_rule(text);
+    text.carried().iter().map(|carried| file.step().name(carried.input())).collect()
 }
 
 /// The name of the length of a step in [the lines of a rule](rule_lines).
@@ -76,6 +84,13 @@ impl<'t> File<'t> {
         let forwarding = text.functions().filter(forwards).filter_map(StepBody::function).collect();
         let spellings = spellings(text, dialect);
         Self { text, dialect, precision, snake, spellings, forwarding }
+    }
+
+    /// Returns a rule in the language of steps.
+    fn of_rule(text: &'t StepText) -> Self {
+        let mut file = Self::new(text, &STEP, Precision::Double, "");
+        file.spellings.insert("h", RULE_STEP.into());
+        file
     }
 
     fn names(&self, body: StepBody<'t>) -> Names<'_> {
