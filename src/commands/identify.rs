@@ -25,8 +25,8 @@ The unit of t is in its heading, or found by its size; without t and tick, the r
 If rows are skipped, a column tick counts them; without it, t does. Rows at uneven times, as of a video,
 show the motion but not the method; rows that step alike whatever their times are ticks. If a log without v
 fits several methods, identify assumes a start at rest where that decides. At most 3000 ticks are read;
---rows, or --start and --end choose which. Where y and z are there too, each is answered. A line on standard error has the rows, the columns and those
-left out, the unit and the rate; in JSON it is read.
+--rows, or --start and --end choose which. Where y and z are there too, each is answered. A line on
+standard error has the rows, the columns and those left out, the unit and the rate; in JSON it is read.
 The body is one of:
 
   a spring      --k, and --c and --mass if they are not 0 and 1

@@ -35,7 +35,8 @@ pub(crate) use op::Level;
 pub(in crate::sim) use registers::LawLanes;
 pub use registers::Registers;
 pub(crate) use step_text::{
-    AT_TARGET, Frame, Line, NO_RETURN, Operation, Powers, StepBody, SwitchKind, remembers_place,
+    AT_TARGET, Frame, Line, NO_RETURN, Operation, Powers, StepBody, SwitchKind, bracketed,
+    remembers_place,
 };
 pub use step_text::{
     Carried, Declares, General, Input, LinearRule, MAX_STEP_BYTES, MethodInput, OwnLines, Request,

@@ -24,7 +24,7 @@ use reader::Reader;
 pub use statements::Declares;
 use statements::statements;
 pub use tree::MethodInput;
-pub(crate) use tree::{Operation, StepBody};
+pub(crate) use tree::{Operation, StepBody, bracketed};
 
 mod linear;
 mod map;

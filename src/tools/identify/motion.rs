@@ -62,17 +62,34 @@ pub(crate) fn run(
     let rest = body.rest.unwrap_or(0.0);
     let mut state = State { q: start[0] - rest, v: start[1] };
     let mut stepper = fresh(candidate.method);
-    let (mut now, mut states, mut first) = (0, Vec::new(), None);
+    let mut now = 0;
+    let at_start = [state.q, state.v];
+    let states = states_at(ticks, u64::from(parts), at_start, |_| {
+        let t = now as f64 * step_s;
+        now += 1;
+        stepper.steps(&known, t, step_s, substeps, &mut state).ok()?;
+        Some([state.q, state.v])
+    })?;
+    Some(states.into_iter().map(|[x, v]| [x + rest, v]).collect())
+}
+
+/// Returns the states at these rising ticks, of which each takes this many calls of `step`; `None` if the motion
+/// diverges.
+fn states_at(
+    ticks: impl Iterator<Item = u64>,
+    parts: u64,
+    start: [f64; 2],
+    mut step: impl FnMut([f64; 2]) -> Option<[f64; 2]>,
+) -> Option<Vec<[f64; 2]>> {
+    let (mut state, mut now, mut first) = (start, 0, None);
+    let mut states = Vec::with_capacity(ticks.size_hint().0);
     for tick in ticks {
-        let steps = (tick - *first.get_or_insert(tick)) * u64::from(parts);
-        while now < steps {
-            let t = now as f64 * step_s;
-            stepper.steps(&known, t, step_s, substeps, &mut state).ok()?;
+        let end = (tick - *first.get_or_insert(tick)) * parts;
+        while now < end {
+            state = step(state).filter(|state| state.iter().all(|part| part.abs() < LOST))?;
             now += 1;
-            let is_there = state.q.abs() < LOST && state.v.abs() < LOST;
-            is_there.then_some(())?;
         }
-        states.push([state.q + rest, state.v]);
+        states.push(state);
     }
     Some(states)
 }
@@ -93,17 +110,11 @@ pub(super) fn run_by_map(
     let still = after(&pushed, [0.0; 2])?;
     let of_x = after(&free, [SLOW, 0.0])?.map(|change| change / SLOW);
     let of_v = after(&free, [0.0, SLOW])?.map(|change| change / SLOW);
-    let ([mut x, mut v], mut now, mut first) = ([start[0] - rest, start[1]], 0, None);
-    let mut states = Vec::with_capacity(ticks.size_hint().0);
-    for tick in ticks {
-        while now < tick - *first.get_or_insert(tick) {
-            [x, v] = [0, 1].map(|i| still[i] + of_x[i] * x + of_v[i] * v);
-            now += 1;
-        }
-        (x.abs() < LOST && v.abs() < LOST).then_some(())?;
-        states.push([x + rest, v]);
-    }
-    Some(states)
+    let at_start = [start[0] - rest, start[1]];
+    let states = states_at(ticks, 1, at_start, |[x, v]| {
+        Some([0, 1].map(|i| still[i] + of_x[i] * x + of_v[i] * v))
+    })?;
+    Some(states.into_iter().map(|[x, v]| [x + rest, v]).collect())
 }
 
 #[cfg(test)]

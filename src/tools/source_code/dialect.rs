@@ -370,7 +370,6 @@ const GD_SCRIPT: Dialect = Dialect {
     comment: "#",
     indent: "\t",
     types: ["float"; 2],
-    single_suffix: "",
     converted: "NAME",
     whole: "int",
     constant: "const NAME: float = VALUE",
@@ -385,20 +384,15 @@ const GD_SCRIPT: Dialect = Dialect {
     line_break: " \\",
     return_value: "return VALUE",
     last_value: "return VALUE",
-    member: ".",
     call: ".call",
-    user: "",
     reference: "",
-    is_compound: true,
-    spelt: str::to_owned,
-    function_name: |method, name| format!("{method}_{name}"),
-    written_out: &ALL_LACK,
     words: &[("nan", "NAN"), ("abs", "absf"), ("min", "minf"), ("max", "maxf"), ("ln", "log")],
     reserved: "and as assert await bool break breakpoint class class_name const continue elif else enum extends false float \
                for func if in int is match namespace not null or pass preload return self signal static super trait true \
                var void when while yield PI TAU INF NAN absf maxf minf log sqrt exp pow ceil floor sin cos tan asin acos \
                atan atan2 sinh cosh tanh is_nan call callv connect disconnect free get get_class get_meta get_script \
                has_method has_signal is_class new notification script set set_meta set_script tr tr_n",
+    ..RUST
 };
 
 const JAVA_SCRIPT: Dialect = Dialect {

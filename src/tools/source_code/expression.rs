@@ -3,7 +3,9 @@
 use std::collections::BTreeMap;
 
 use super::dialect::{Dialect, Precision};
-use crate::sim::law::{Expression, Level, Line, MethodInput, Operation, StepBody, StepText};
+use crate::sim::law::{
+    Expression, Level, Line, MethodInput, Operation, StepBody, StepText, bracketed,
+};
 
 /// The prefix of a number that the memory carries.
 const FIELD: &str = "memory_";
@@ -219,13 +221,5 @@ impl<'t> Names<'t> {
 
 /// Returns an expression without brackets around all of it.
 fn bare(text: &str) -> &str {
-    let mut depth = 0;
-    let closes = text.bytes().position(|byte| {
-        depth += i32::from(byte == b'(') - i32::from(byte == b')');
-        depth == 0
-    });
-    match text.strip_prefix('(').and_then(|rest| rest.strip_suffix(')')) {
-        Some(inside) if closes == Some(text.len() - 1) => inside,
-        _ => text,
-    }
+    bracketed(text).unwrap_or(text)
 }

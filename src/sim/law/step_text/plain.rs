@@ -78,7 +78,7 @@ fn line_length(rest: &[u8]) -> usize {
 }
 
 /// Returns the lengths of a number and of its suffix.
-fn number_length(rest: &[u8]) -> (usize, usize) {
+pub(super) fn number_length(rest: &[u8]) -> (usize, usize) {
     let digits = |from: usize| {
         rest[from..].iter().take_while(|byte| byte.is_ascii_digit() || **byte == b'.').count()
     };

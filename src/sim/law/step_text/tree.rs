@@ -3,6 +3,7 @@
 use std::ops::Range;
 
 use super::method::{Function, Taken};
+use super::plain::number_length;
 use super::{Declares, H, Line, StepText, TARGET, V};
 use crate::sim::law::expression::{Expression, Node};
 use crate::sim::law::function::{FUNCTIONS, Meaning, STEP_FUNCTIONS};
@@ -395,13 +396,19 @@ impl<'t> StepBody<'t> {
     /// Whether an operation stands in brackets of its own in the lines.
     pub(crate) fn is_bracketed(self, expression: &Expression, index: usize) -> bool {
         let text = self.source().get(expression.spans[index].clone()).unwrap_or_default();
-        let mut depth = 0;
-        let closes = text.bytes().position(|byte| {
-            depth += i32::from(byte == b'(') - i32::from(byte == b')');
-            depth == 0
-        });
-        text.starts_with('(') && closes == Some(text.len() - 1)
+        bracketed(text).is_some()
     }
+}
+
+/// Returns an expression without the brackets around all of it; `None` if it has none.
+pub(crate) fn bracketed(text: &str) -> Option<&str> {
+    let mut depth = 0;
+    let closes = text.bytes().position(|byte| {
+        depth += i32::from(byte == b'(') - i32::from(byte == b')');
+        depth == 0
+    });
+    let inside = text.strip_prefix('(')?.strip_suffix(')')?;
+    (closes == Some(text.len() - 1)).then_some(inside)
 }
 
 /// Operations on whole numbers whose value is whole.
@@ -432,16 +439,7 @@ fn literal<'t>(source: &'t str, span: &Range<usize>, value: f64) -> Option<[&'t 
         return None;
     }
     let after = source[span.end..].strip_prefix('|');
-    let end = |text: &str| {
-        let mut before = '0';
-        let ends = |c: char| {
-            let is_sign = before == 'e' && (c == '-' || c == '+');
-            before = c;
-            !(c.is_ascii_digit() || c == '.' || c == 'e' || is_sign)
-        };
-        text.find(ends).unwrap_or(text.len())
-    };
-    let single = after.map_or(double, |after| &after[..end(after)]);
+    let single = after.map_or(double, |after| &after[..number_length(after.as_bytes()).0]);
     Some([double, single])
 }
 
