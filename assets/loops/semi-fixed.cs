@@ -16,9 +16,10 @@ public static class GameLoop
     public static int Frame(long durationNs, int tickHz, out double stepSeconds)
     {
         durationNs = Math.Max(durationNs, 0);
-        // Rounded up: in nanoseconds times ticks per second a tick is a whole number.
-        long fewest = (durationNs * tickHz + SecondNs - 1) / SecondNs;
-        long count = Math.Min(fewest, MostSteps);
+        // Rounded up, but for the nanosecond by which a clock rounds: in nanoseconds times ticks per second a tick is a
+        // whole number.
+        long fewest = ((durationNs - 1) * tickHz + SecondNs - 1) / SecondNs;
+        long count = Math.Min(Math.Max(fewest, Math.Min(durationNs, 1)), MostSteps);
         stepSeconds = durationNs / 1e9 / Math.Max(count, 1);
         return (int)count;
     }

@@ -17,9 +17,11 @@ struct Steps {
 inline Steps frame(std::int64_t duration_ns, int tick_hz) {
     const std::int64_t most_steps = 6, second_ns = 1'000'000'000;
     duration_ns = std::max<std::int64_t>(duration_ns, 0);
-    // Rounded up: in nanoseconds times ticks per second a tick is a whole number.
-    const std::int64_t fewest = (duration_ns * tick_hz + second_ns - 1) / second_ns;
-    const std::int64_t count = std::min(fewest, most_steps);
+    // Rounded up, but for the nanosecond by which a clock rounds: in nanoseconds times ticks per second a tick is a
+    // whole number.
+    const std::int64_t fewest = ((duration_ns - 1) * tick_hz + second_ns - 1) / second_ns;
+    const std::int64_t least = std::min<std::int64_t>(duration_ns, 1);
+    const std::int64_t count = std::min(std::max(fewest, least), most_steps);
     const double parts = static_cast<double>(std::max<std::int64_t>(count, 1));
     return {static_cast<int>(count), static_cast<double>(duration_ns) / 1e9 / parts};
 }

@@ -15,8 +15,9 @@ const SECOND_NS: i64 = 1_000_000_000;
 pub fn frame(duration_ns: i64, tick_hz: u32) -> (i64, f64) {
     // A clock that went back counts as no time.
     let duration_ns = duration_ns.max(0);
-    // Rounded up: in nanoseconds times ticks per second a tick is a whole number.
-    let fewest = (duration_ns * i64::from(tick_hz) + SECOND_NS - 1) / SECOND_NS;
-    let count = fewest.min(MOST_STEPS);
+    // Rounded up, but for the nanosecond by which a clock rounds: in nanoseconds times ticks per second a tick is a
+    // whole number.
+    let fewest = ((duration_ns - 1) * i64::from(tick_hz) + SECOND_NS - 1) / SECOND_NS;
+    let count = fewest.max(duration_ns.min(1)).min(MOST_STEPS);
     (count, duration_ns as f64 / 1e9 / count.max(1) as f64)
 }

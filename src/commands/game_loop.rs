@@ -24,8 +24,8 @@ use super::tick_rate::TickRateArgs;
 use super::trace_source::traces;
 use crate::atomic_file::IfExists;
 use crate::loops::{
-    FrameLimits, FrameTrace, MIN_RUN_S, PACING_METRICS, POLICIES, PacingMetric, PolicyCard,
-    RefreshRate, USUAL_LATENCY_MS, trace_card,
+    Excess, FrameLimits, FrameTrace, LongFrame, MIN_RUN_S, PACING_METRICS, POLICIES, PacingMetric,
+    PolicyCard, RefreshRate, USUAL_LATENCY_MS, trace_card,
 };
 use crate::run::Unit;
 use crate::scene::{LaneSpec, Scene};
@@ -46,6 +46,7 @@ One row for each trace and policy, in the order asked for; times are in ms:
                       to frame: judder (PresentMon's term)
   repeated_percent    displayed frames that show the same moment again
   double_percent      displayed frames that show two ticks or more at once, half a tick or more ahead
+  old_refreshes_…     refreshes of the display that show the picture before again
   latency_…           moment of display minus moment shown; of a file up to a constant; empty where
                       the speed depends on the frame rate: the game runs away from the display
   dropped_ms          real time given up
@@ -53,8 +54,13 @@ One row for each trace and policy, in the order asked for; times are in ms:
   position_error_rms  distance from the exact solution at the moment of display, in amplitudes (half
                       the range), of the worst body
   ticks, evaluations  steps made, and evaluations of the bodies' accelerations
+  speed_percent       simulated time over real time
+  owed_ms             real time neither simulated nor given up at the end; below 0 the game is ahead
+  fast_forward_…      frames that simulate half a tick more than they last, to catch up on time owed
+  backward_frames     frames that show an earlier moment than the frame before
 
-In --frame-rows q is the first coordinate of the scene's first body. Below the rows, loop recommends one:
+In --frame-rows q is the first coordinate of the scene's first body, step_ms the time of the frame's
+steps, and alpha the place of the picture between two ticks. Each line of a list is a frame. Below the rows, loop recommends one:
 the loop with the least animation error that has a fixed tick and is smooth within --latency-ms; or it
 says why there is none. `regatta help loops` says more.
 
@@ -112,6 +118,17 @@ pub(super) struct LoopArgs {
     #[arg(long, value_name = "N")]
     #[arg(value_parser = clap::value_parser!(u32).range(1..=10_000))]
     max_ticks: Option<u32>,
+
+    /// Whether later frames make the ticks beyond the most of a frame: drop or keep
+    #[arg(long, value_name = "drop|keep", default_value = "drop", value_parser = excess)]
+    excess: Excess,
+
+    /// What a long frame counts as, before any other limit
+    ///
+    /// clamp:100 counts at most 100 ms; replace:200=1 counts a frame above 200 ms as 1 ms; last:66.7 counts one above
+    /// 66.7 ms as the last one that was not. Ticks then have no other limit than --max-ticks.
+    #[arg(long, value_name = "RULE", value_parser = long_frame, conflicts_with = "max_frame_ms")]
+    long_frame: Option<LongFrame>,
 
     /// The longest frame that is simulated [default: each loop's own]
     #[arg(long, value_name = "ms")]
@@ -256,7 +273,8 @@ impl LoopArgs {
                 limited.collect::<Vec<_>>().join(", ")
             )));
         }
-        Ok(FrameLimits { max_ticks: self.max_ticks, max_frame_ms: self.max_frame_ms })
+        let Self { max_ticks, max_frame_ms, excess, long_frame, .. } = *self;
+        Ok(FrameLimits { max_ticks, max_frame_ms, excess, long_frame })
     }
 
     /// Returns the files that the command reads.
@@ -331,7 +349,7 @@ fn write_measured(
 }
 
 /// The columns of `--frame-rows`.
-const FRAME_COLUMNS: [&str; 9] = [
+const FRAME_COLUMNS: [&str; 12] = [
     "trace",
     "policy",
     "frame",
@@ -341,7 +359,34 @@ const FRAME_COLUMNS: [&str; 9] = [
     "ticks",
     "dropped_ms",
     "q",
+    "step_ms",
+    "owed_ms",
+    "alpha",
 ];
+
+fn excess(written: &str) -> Result<Excess, String> {
+    match written {
+        "drop" => Ok(Excess::Drop),
+        "keep" => Ok(Excess::Keep),
+        _ => Err("write drop or keep".into()),
+    }
+}
+
+/// Reads the treatment of long frames.
+fn long_frame(written: &str) -> Result<LongFrame, String> {
+    let ns = |written: &str| {
+        let ms = number_that(written, |ms| (0.001..=60_000.0).contains(&ms), "0.001 to 60000 ms")?;
+        Ok::<i64, String>((1e6 * ms).round() as i64)
+    };
+    match written.split_once(':') {
+        Some(("clamp", most)) => Ok(LongFrame::Clamp(ns(most)?)),
+        Some(("last", over)) => Ok(LongFrame::Last(ns(over)?)),
+        Some(("replace", rest)) if let Some((over, by)) = rest.split_once('=') => {
+            Ok(LongFrame::Replace { over: ns(over)?, by: ns(by)? })
+        }
+        _ => Err("write clamp:100, replace:200=1 or last:66.7, with times in ms".into()),
+    }
+}
 
 fn latency(written: &str) -> Result<f64, String> {
     number_that(written, |ms| (0.0..=10_000.0).contains(&ms), "0 to 10000 ms")
@@ -354,6 +399,12 @@ mod tests {
     #[test]
     fn only_counts_have_no_unit() {
         let counts = metrics().filter(|metric| metric.unit == Unit::One).map(|metric| metric.id);
-        assert!(counts.eq(["frames", "ticks", "evaluations"]));
+        assert!(counts.eq([
+            "frames",
+            "ticks",
+            "evaluations",
+            "fast_forward_frames",
+            "backward_frames"
+        ]));
     }
 }

@@ -2,6 +2,7 @@
 
 use super::metrics::PacingReport;
 use super::policy::PolicyCard;
+use super::time_base::RefreshRate;
 use super::verdict::LoopVerdict;
 use crate::measure::Severity;
 use crate::run::race::Interpolation;
@@ -16,6 +17,9 @@ const AS_NEAR: f64 = 0.01;
 
 /// Default limit on the mean latency of a recommended loop, in milliseconds.
 pub const USUAL_LATENCY_MS: f64 = 20.0;
+
+/// Largest difference between the tick rate and the refresh rate at which noise decides on the ticks of a frame.
+const SAME_RATE: f64 = 0.01;
 
 /// Reason to prefer a loop that draws between two ticks to one that is equally smooth but draws beyond the last tick.
 const NOT_AHEAD: &str = "extrapolation or a render tick would be as smooth and no tick late, but overshoots at each kick";
@@ -40,6 +44,8 @@ pub enum NoLoop {
     OtherSpeed,
     /// Every loop with a fixed tick loses the motion.
     MotionLost,
+    /// Every loop with a fixed tick shows no tick in some frames and two in others, unless the clock is exact.
+    Flutter,
     /// No loop with a fixed tick is both smooth and within the latency.
     Unfit {
         /// The smooth loop with the lowest latency.
@@ -64,6 +70,7 @@ impl NoLoop {
 pub struct MeasuredLoops<'a> {
     loops: Vec<(&'static PolicyCard, &'a PacingReport)>,
     tick_hz: TickRate,
+    refresh: RefreshRate,
     origin_ms: f64,
 }
 
@@ -73,12 +80,13 @@ impl<'a> MeasuredLoops<'a> {
     pub fn new(
         loops: impl IntoIterator<Item = (&'static PolicyCard, &'a PacingReport)>,
         tick_hz: impl Into<TickRate>,
+        refresh: RefreshRate,
         has_one_clock: bool,
     ) -> Self {
         let loops: Vec<_> = loops.into_iter().collect();
         let latencies = loops.iter().filter_map(|(_, report)| report.latency_mean_ms());
         let least = latencies.reduce(f64::min).filter(|_| !has_one_clock);
-        Self { loops, tick_hz: tick_hz.into(), origin_ms: least.unwrap_or(0.0) }
+        Self { loops, tick_hz: tick_hz.into(), refresh, origin_ms: least.unwrap_or(0.0) }
     }
 
     /// Returns the mean latency of the loop with this index, in milliseconds.
@@ -88,7 +96,8 @@ impl<'a> MeasuredLoops<'a> {
 
     /// Returns the best smooth loop with a fixed tick and a mean latency of at most `latency_ms`. The best one has the
     /// smallest animation error. Among equals it is one that never draws beyond its last tick, then the one with the
-    /// smaller position error, then the first.
+    /// smaller position error, then the first. A loop that [needs an exact clock](PolicyCard::needs_exact_clock) is
+    /// not advised at the rate of the display.
     ///
     /// # Errors
     /// Returns the reason if no loop qualifies.
@@ -108,6 +117,13 @@ impl<'a> MeasuredLoops<'a> {
         fitting.retain(|&index| !self.loops[index].1.loses_motion());
         if fitting.is_empty() {
             return Err(NoLoop::MotionLost);
+        }
+        let is_same_rate = (f64::from(self.tick_hz) / self.refresh.hz() - 1.0).abs() <= SAME_RATE;
+        let (fluttering, mut fitting): (Vec<usize>, Vec<usize>) = fitting
+            .into_iter()
+            .partition(|&index| is_same_rate && self.loops[index].0.needs_exact_clock);
+        if fitting.is_empty() && !fluttering.is_empty() {
+            return Err(NoLoop::Flutter);
         }
         fitting.sort_by(|&one, &other| {
             self.rank(one).partial_cmp(&self.rank(other)).expect("numbers")
@@ -151,6 +167,11 @@ impl<'a> MeasuredLoops<'a> {
             }
             NoLoop::OtherSpeed => return of_all("the speed depends on the frame rate"),
             NoLoop::MotionLost => return of_all("the motion is lost"),
+            NoLoop::Flutter => {
+                return of_all(
+                    "a clock that rounds decides between no tick and two, since ticks are as frequent as refreshes",
+                );
+            }
             NoLoop::Unfit { late, uneven } => (late, uneven),
         };
         let first =

@@ -199,8 +199,9 @@ impl LoopLab {
     fn measured(&self) -> Option<MeasuredLoops<'_>> {
         let measured = self.lanes.iter().map(|lane| Some((lane.card(), lane.report()?)));
         let measured: Vec<_> = measured.collect::<Option<_>>()?;
-        let has_one_clock = self.traces[self.trace].has_one_clock();
-        Some(MeasuredLoops::new(measured, self.scene.tick_hz, has_one_clock))
+        let trace = &self.traces[self.trace];
+        let (refresh, has_one_clock) = (trace.refresh(), trace.has_one_clock());
+        Some(MeasuredLoops::new(measured, self.scene.tick_hz, refresh, has_one_clock))
     }
 
     /// Whether every loop has run.

@@ -15,7 +15,8 @@ pub const MIN_RUN_S: f64 = 10.0;
 
 /// A scene under one method in one loop, frame by frame.
 ///
-/// The first frame starts the clock and shows the start. Each later frame makes the steps that the loop decides on.
+/// The first frame starts the clock and shows the start, unless the trace
+/// [counts its time](FrameTrace::first_counts). Each later frame makes the steps that the loop decides on.
 /// The scene's script acts before the first step at or after its time.
 ///
 /// ```
@@ -69,7 +70,9 @@ impl LoopRun {
             truth: ScriptedTruth::new(scene),
             frames: trace.frames(),
             meter: PacingMeter::default(),
-            last: None,
+            last: trace
+                .first_counts()
+                .then(|| (Frame { began_ns: 0, displayed_ns: None }, Steps::default())),
             script: TimedScript::new(scene),
             stride: 1,
         }
@@ -115,7 +118,7 @@ impl LoopRun {
         };
         self.last = Some((frame, steps));
         let pacer = self.lane.pacer();
-        let animation_error_ms = self.meter.frame(frame, pacer);
+        let animation_error_ms = self.meter.frame(frame, steps, pacer);
         if let Some(displayed_ns) = frame.displayed_ns {
             self.truth.compare(displayed_ns as f64 / 1e9, &self.lane);
         }
@@ -125,7 +128,10 @@ impl LoopRun {
             frame,
             shown_ms: base.milliseconds(pacer.drawn_moment()),
             steps,
+            step_ms: base.milliseconds(steps.span),
             dropped_ms: base.milliseconds(steps.dropped),
+            owed_ms: base.milliseconds(pacer.owed()),
+            alpha: pacer.alpha(),
             animation_error_ms,
         })
     }

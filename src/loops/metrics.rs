@@ -24,12 +24,22 @@ pub struct PacingReport {
     /// Displayed frames that advance by two ticks or more, and also by at least half a tick more than the display does,
     /// in percent.
     pub double_percent: Option<f64>,
+    /// Refreshes of the display that show the previous picture again, in percent.
+    pub old_refreshes_percent: Option<f64>,
     /// Mean and maximum of display time minus the moment shown; negative for a game that runs ahead.
     pub(super) latency_ms: [Option<f64>; 2],
     /// Real time that the loop dropped, in milliseconds.
     pub dropped_ms: f64,
     /// Maximum of the real time that was neither simulated nor dropped, in milliseconds.
     pub owed_max_ms: f64,
+    /// Real time that is neither simulated nor dropped at the end, in milliseconds; negative for a game that is ahead.
+    pub owed_ms: f64,
+    /// Simulated time in percent of the real time; `None` until time has passed.
+    pub speed_percent: Option<f64>,
+    /// Frames that simulate half a tick more than they last, to catch up on a tick or more that was owed before.
+    pub fast_forward_frames: u64,
+    /// Frames that show an earlier moment than the frame before.
+    pub backward_frames: u64,
     /// RMS distance from the exact solution at the time of display, in amplitudes, for the worst body.
     pub position_error_rms: Option<f64>,
     /// Number of steps of the bodies.
@@ -135,6 +145,13 @@ pub const PACING_METRICS: &[PacingMetric] = &[
         measure: |report| report.double_percent,
     },
     PacingMetric {
+        id: "old_refreshes_percent",
+        name: "old refreshes",
+        unit: Unit::Percent,
+        about: "refreshes of the display that show the picture before again, because no frame was ready",
+        measure: |report| report.old_refreshes_percent,
+    },
+    PacingMetric {
         id: "latency_mean_ms",
         name: "mean latency",
         unit: Unit::Milliseconds,
@@ -184,6 +201,34 @@ pub const PACING_METRICS: &[PacingMetric] = &[
         measure: |report| Some(report.evaluations as f64),
     },
     PacingMetric {
+        id: "speed_percent",
+        name: "speed",
+        unit: Unit::Percent,
+        about: "simulated time over real time",
+        measure: |report| report.speed_percent,
+    },
+    PacingMetric {
+        id: "owed_ms",
+        name: "owed time",
+        unit: Unit::Milliseconds,
+        about: "real time that is neither simulated nor given up at the end; negative where the game is ahead",
+        measure: |report| Some(report.owed_ms),
+    },
+    PacingMetric {
+        id: "fast_forward_frames",
+        name: "fast-forward",
+        unit: Unit::One,
+        about: "frames that simulate half a tick more than they last, to catch up on time owed before",
+        measure: |report| Some(report.fast_forward_frames as f64),
+    },
+    PacingMetric {
+        id: "backward_frames",
+        name: "backward frames",
+        unit: Unit::One,
+        about: "frames that show an earlier moment than the frame before",
+        measure: |report| Some(report.backward_frames as f64),
+    },
+    PacingMetric {
         id: "state_difference",
         name: "difference at half the frame rate",
         unit: Unit::Amplitudes,
@@ -206,6 +251,13 @@ pub(super) struct PacingMeter {
     latency: i128,
     largest_latency: Option<i128>,
     max_owed: i128,
+    /// Refreshes of the display since its first picture, and those among them that show the previous picture.
+    refreshes: i128,
+    old_refreshes: i128,
+    /// Time that had passed, time owed and moment shown in the last frame.
+    before: Option<[i128; 3]>,
+    fast_forward: u64,
+    backward: u64,
 }
 
 impl PacingMeter {
@@ -215,11 +267,19 @@ impl PacingMeter {
 
     /// Adds a frame after its steps. Returns its animation error in milliseconds if this frame and an earlier one were
     /// displayed.
-    pub(super) fn frame(&mut self, frame: Frame, pacer: &Pacer) -> Option<f64> {
+    pub(super) fn frame(&mut self, frame: Frame, steps: Steps, pacer: &Pacer) -> Option<f64> {
         self.frames += 1;
         self.max_owed = self.max_owed.max(pacer.owed());
         let base = pacer.base();
-        let (displayed, shown) = (base.nanoseconds(frame.displayed_ns?), pacer.drawn_moment());
+        let (tick, leeway) = (pacer.tick(), base.nanoseconds(LEEWAY_NS));
+        let shown = pacer.drawn_moment();
+        let now = [pacer.passed(), pacer.owed(), shown];
+        if let Some([passed, owed, shown_before]) = self.before.replace(now) {
+            let gained = steps.span - (pacer.passed() - passed);
+            self.fast_forward += u64::from(owed + leeway >= tick && 2 * gained >= tick);
+            self.backward += u64::from(shown + leeway < shown_before);
+        }
+        let displayed = base.nanoseconds(frame.displayed_ns?);
         self.displayed += 1;
         let latency = displayed - shown;
         self.latency += latency;
@@ -228,8 +288,10 @@ impl PacingMeter {
         let progress = shown - shown_before;
         let error = progress - (displayed - displayed_before);
         self.repeated += u64::from(progress == 0);
-        let tick = base.tick();
-        let leeway = base.nanoseconds(LEEWAY_NS);
+        let refresh = base.refresh();
+        let lasted = (2 * (displayed - displayed_before) + refresh).div_euclid(2 * refresh).max(1);
+        self.refreshes += lasted;
+        self.old_refreshes += lasted - 1;
         self.doubled += u64::from(progress + leeway >= 2 * tick && 2 * (error + leeway) >= tick);
         if error.abs() > self.largest_error.abs() {
             self.largest_error = error;
@@ -253,12 +315,19 @@ impl PacingMeter {
             ),
             repeated_percent: of_changes(100.0 * self.repeated as f64),
             double_percent: of_changes(100.0 * self.doubled as f64),
+            old_refreshes_percent: (self.refreshes > 0)
+                .then(|| 100.0 * self.old_refreshes as f64 / self.refreshes as f64),
             latency_ms: [
                 (displayed > 0.0).then(|| base.milliseconds(self.latency) / displayed),
                 self.largest_latency.map(|latency| base.milliseconds(latency)),
             ],
             dropped_ms: base.milliseconds(pacer.dropped()),
             owed_max_ms: base.milliseconds(self.max_owed),
+            owed_ms: base.milliseconds(pacer.owed()),
+            speed_percent: (pacer.passed() != 0)
+                .then(|| 100.0 * pacer.simulated() as f64 / pacer.passed() as f64),
+            fast_forward_frames: self.fast_forward,
+            backward_frames: self.backward,
             position_error_rms: None,
             ticks,
             evaluations,
@@ -279,8 +348,14 @@ pub struct FrameRecord {
     pub shown_ms: f64,
     /// Steps of the frame.
     pub steps: Steps,
+    /// Simulated time of the frame's steps, in milliseconds.
+    pub step_ms: f64,
     /// Real time that the frame dropped, in milliseconds.
     pub dropped_ms: f64,
+    /// Real time that is neither simulated nor dropped after the frame, in milliseconds.
+    pub owed_ms: f64,
+    /// Position of the picture [between two ticks](Pacer::alpha).
+    pub alpha: f64,
     /// Animation error in milliseconds, if this frame and an earlier one were displayed.
     pub animation_error_ms: Option<f64>,
 }

@@ -1,6 +1,6 @@
 //! A policy at work, and the time that it has simulated.
 
-use super::policy::{FrameLimits, Policy, PolicyCard, Steps};
+use super::policy::{Excess, FrameLimits, LongFrame, Policy, PolicyCard, Steps};
 use super::time_base::TimeBase;
 use crate::run::race::Interpolation;
 
@@ -13,6 +13,12 @@ pub struct Pacer {
     policy: Box<dyn Policy>,
     /// Maximum frame duration, if one is set.
     longest: Option<i128>,
+    long_frame: Option<LongFrame>,
+    /// The last frame that was not long, in nanoseconds.
+    last_ns: i64,
+    excess: Excess,
+    /// Time of ticks beyond the maximum, which the next frame counts.
+    kept: i128,
     passed: i128,
     simulated: i128,
     dropped: i128,
@@ -28,7 +34,20 @@ impl Pacer {
     pub fn limited(card: &'static PolicyCard, base: TimeBase, limits: FrameLimits) -> Self {
         let policy = (card.build)(base, limits);
         let longest = limits.max_frame_ms.map(|ms| base.nanoseconds(i64::from(ms) * 1_000_000));
-        Self { card, base, policy, longest, passed: 0, simulated: 0, dropped: 0 }
+        let FrameLimits { long_frame, excess, .. } = limits;
+        Self {
+            card,
+            base,
+            policy,
+            longest,
+            long_frame,
+            last_ns: 0,
+            excess,
+            kept: 0,
+            passed: 0,
+            simulated: 0,
+            dropped: 0,
+        }
     }
 
     /// Returns the card of the policy.
@@ -43,6 +62,14 @@ impl Pacer {
     pub fn simulated(&self) -> i128 {
         self.simulated
     }
+    /// Returns the real time of all frames.
+    pub fn passed(&self) -> i128 {
+        self.passed
+    }
+    /// Returns the length of a tick.
+    pub fn tick(&self) -> i128 {
+        self.base.tick()
+    }
     /// Returns the dropped time.
     pub fn dropped(&self) -> i128 {
         self.dropped
@@ -56,13 +83,36 @@ impl Pacer {
     /// one counts as 0.
     pub fn frame(&mut self, duration_ns: i64) -> Steps {
         let duration = self.base.nanoseconds(duration_ns.max(0));
-        let kept = self.longest.map_or(duration, |longest| duration.min(longest));
-        let mut steps = self.policy.frame(kept);
-        steps.dropped += duration - kept;
+        let counted_ns = self.counted_ns(duration_ns.max(0));
+        let counted = self.base.nanoseconds(counted_ns);
+        let counted = self.longest.map_or(counted, |longest| counted.min(longest));
+        let mut steps = self.policy.frame(counted + self.kept);
+        if self.excess == Excess::Keep {
+            self.kept = std::mem::take(&mut steps.dropped);
+        }
+        steps.dropped += duration - counted;
         self.passed += duration;
         self.simulated += steps.span;
         self.dropped += steps.dropped;
         steps
+    }
+
+    /// Returns the duration in nanoseconds with which a frame counts.
+    fn counted_ns(&mut self, duration_ns: i64) -> i64 {
+        let over = match self.long_frame {
+            Some(
+                LongFrame::Clamp(over) | LongFrame::Replace { over, .. } | LongFrame::Last(over),
+            ) => over,
+            None => return duration_ns,
+        };
+        match self.long_frame {
+            Some(LongFrame::Replace { by, .. }) if duration_ns > over => by,
+            Some(LongFrame::Last(_)) if duration_ns > over => self.last_ns,
+            _ => {
+                self.last_ns = duration_ns.min(over);
+                self.last_ns
+            }
+        }
     }
 
     /// Returns the position of the picture between the last tick and the next. It is in [0, 1] for policies that draw

@@ -32,11 +32,12 @@ const FIXED: PolicyCard = PolicyCard {
     formula: "owed += dt; while owed ≥ H: tick, owed −= H; show the last tick",
     constants: "at most 250 ms of ticks a frame; the rest is dropped",
     odd_frames: "no time: no tick; 10 s: the ticks of 250 ms, the rest dropped",
-    users: "Unity (50 Hz, frame at most 1/3 s), Bevy (64 Hz, 250 ms), MonoGame (60 Hz, 500 ms), Godot (60 Hz, 8 ticks), Doom 3 BFG (50 ms)",
+    users: "Unity (50 Hz, frame at most 1/3 s), Bevy (64 Hz; cuts a frame to 250 ms before it counts), MonoGame (60 Hz, 500 ms), Godot (60 Hz, 8 ticks), Doom 3 BFG (50 ms)",
     source: "G. Fiedler, \"Fix Your Timestep!\", 2004",
     drawing: Interpolation::Raw,
     has_render_tick: false,
     has_fixed_tick: true,
+    needs_exact_clock: false,
     has_max_ticks: true,
     is_usual: false,
     snippets: snippets!("fixed": "rust" "rs", "c++" "hpp", "c#" "cs"),
@@ -56,6 +57,7 @@ pub static POLICIES: &[PolicyCard] = &[
         drawing: Interpolation::Raw,
         has_render_tick: false,
         has_fixed_tick: false,
+        needs_exact_clock: false,
         has_max_ticks: false,
         is_usual: true,
         snippets: snippets!("variable": "rust" "rs", "c++" "hpp", "c#" "cs"),
@@ -72,6 +74,7 @@ pub static POLICIES: &[PolicyCard] = &[
         drawing: Interpolation::Raw,
         has_render_tick: false,
         has_fixed_tick: true,
+        needs_exact_clock: false,
         has_max_ticks: false,
         is_usual: false,
         snippets: snippets!("lockstep": "rust" "rs"),
@@ -88,6 +91,7 @@ pub static POLICIES: &[PolicyCard] = &[
         drawing: Interpolation::Raw,
         has_render_tick: false,
         has_fixed_tick: false,
+        needs_exact_clock: false,
         has_max_ticks: false,
         is_usual: false,
         snippets: snippets!("clamped-variable": "rust" "rs", "c++" "hpp", "c#" "cs"),
@@ -104,15 +108,16 @@ pub static POLICIES: &[PolicyCard] = &[
         drawing: Interpolation::Raw,
         has_render_tick: false,
         has_fixed_tick: false,
+        needs_exact_clock: false,
         has_max_ticks: true,
         is_usual: false,
         snippets: snippets!("semi-fixed": "rust" "rs", "c++" "hpp", "c#" "cs"),
         build: |base, limits| {
             let max_steps = limits.max_ticks.unwrap_or(MAX_STEPS);
-            Box::new(SemiFixed { tick: base.tick(), max_steps })
+            Box::new(SemiFixed { tick: base.tick(), rounding: base.nanoseconds(1), max_steps })
         },
     },
-    PolicyCard { is_usual: true, ..FIXED },
+    PolicyCard { is_usual: true, needs_exact_clock: true, ..FIXED },
     PolicyCard {
         id: "fixed-linear",
         name: "Fixed, linear",
@@ -204,6 +209,7 @@ pub static POLICIES: &[PolicyCard] = &[
         drawing: Interpolation::Raw,
         has_render_tick: false,
         has_fixed_tick: false,
+        needs_exact_clock: false,
         has_max_ticks: false,
         is_usual: false,
         snippets: snippets!("median": "rust" "rs"),
@@ -269,12 +275,15 @@ const MAX_STEPS: u32 = 6;
 #[derive(Clone, Copy)]
 struct SemiFixed {
     tick: i128,
+    /// Rounding of a clock in whole nanoseconds, which lengthens a frame of one tick.
+    rounding: i128,
     max_steps: u32,
 }
 
 impl Policy for SemiFixed {
     fn frame(&mut self, duration: i128) -> Steps {
-        let fewest = -(-duration).div_euclid(self.tick);
+        let fewest = -(self.rounding - duration).div_euclid(self.tick);
+        let fewest = fewest.max(i128::from(duration > 0));
         Steps { count: fewest.min(self.max_steps.into()) as u32, span: duration, dropped: 0 }
     }
 

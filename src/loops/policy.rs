@@ -21,6 +21,32 @@ impl Steps {
     }
 }
 
+/// The fate of ticks beyond the maximum of a frame.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Excess {
+    /// Their time is never simulated.
+    #[default]
+    Drop,
+    /// Later frames make them.
+    Keep,
+}
+
+/// The duration that a long frame counts with. Times are in nanoseconds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum LongFrame {
+    /// Every frame counts with at most this duration.
+    Clamp(i64),
+    /// A frame longer than `over` counts as `by`.
+    Replace {
+        /// Longest frame that counts in full.
+        over: i64,
+        /// Duration that a longer frame counts with.
+        by: i64,
+    },
+    /// A frame longer than this counts as the last one that was not.
+    Last(i64),
+}
+
 /// Limits on the work in a frame. With `None` the policy's own limit applies.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct FrameLimits {
@@ -28,6 +54,10 @@ pub struct FrameLimits {
     pub max_ticks: Option<u32>,
     /// Maximum frame duration in milliseconds; the excess is dropped.
     pub max_frame_ms: Option<u32>,
+    /// The fate of ticks beyond the maximum.
+    pub excess: Excess,
+    /// The treatment of long frames, before any other limit.
+    pub long_frame: Option<LongFrame>,
 }
 
 /// A game loop's decisions and memory. Times are in the unit of a [`TimeBase`].
@@ -86,6 +116,8 @@ pub struct PolicyCard {
     pub has_render_tick: bool,
     /// Whether every step is a whole tick, so that the physics is the same to the bit at any frame rate.
     pub has_fixed_tick: bool,
+    /// Whether the picture flutters between no tick and two if the clock rounds and the tick rate is that of the display.
+    pub needs_exact_clock: bool,
     /// Whether the policy limits the ticks in a frame, so that a person can set the limit.
     pub has_max_ticks: bool,
     /// Whether `regatta loop` compares the policy by default.

@@ -26,8 +26,8 @@ pub struct FrameTrace {
     clocks: Clocks,
     /// Name of the tool that wrote the log, and the unit of its times if that was inferred; empty for a pattern.
     format: String,
-    /// Duration of the first frame before it began, in nanoseconds, if the log counts it; otherwise 0.
-    lead_ns: i64,
+    /// Duration of the first frame before it began, in nanoseconds, if the log counts it. All frames are later by it.
+    lead_ns: Option<i64>,
     /// The rows of the log that were taken; empty for a pattern.
     taken: Taken,
 }
@@ -89,7 +89,7 @@ impl FrameTrace {
             source: Source::Recorded(frames.into()),
             clocks: Clocks::Two,
             format: String::new(),
-            lead_ns: 0,
+            lead_ns: None,
             taken: Taken::default(),
         }
     }
@@ -103,7 +103,7 @@ impl FrameTrace {
         let source = Source::Pattern(Box::new(pattern));
         let (clocks, format) = (Clocks::One, String::new());
         let taken = Taken::default();
-        Self { name: name.into(), refresh, source, clocks, format, lead_ns: 0, taken }
+        Self { name: name.into(), refresh, source, clocks, format, lead_ns: None, taken }
     }
 
     /// Returns the name of the trace.
@@ -127,15 +127,16 @@ impl FrameTrace {
         let Source::Recorded(frames) = &self.source else { return None };
         let began: Vec<i64> = frames.iter().map(|frame| frame.began_ns).collect();
         let seconds = |ns: i64| ns as f64 / 1e9;
-        let lasted_s = seconds(began.last()? - began.first()? + self.lead_ns);
-        let lasted = began.windows(2).map(|pair| pair[1] - pair[0]).chain([self.lead_ns]);
+        let lead_ns = self.lead_ns.unwrap_or_default();
+        let lasted_s = seconds(began.last()? - began.first()? + lead_ns);
+        let lasted = began.windows(2).map(|pair| pair[1] - pair[0]).chain([lead_ns]);
         let longest = lasted.max().unwrap_or_default();
         let never = frames.iter().filter(|frame| frame.displayed_ns.is_none()).count();
         let never = match never {
             0 => String::new(),
             never => format!(", {} never displayed", grouped(never as u64)),
         };
-        let rate = (frames.len() - usize::from(self.lead_ns == 0)) as f64 / lasted_s;
+        let rate = (frames.len() - usize::from(self.lead_ns.is_none())) as f64 / lasted_s;
         Some(format!(
             "read {} in {} s: {} a second, longest {} ms{never} ({}){}",
             counted(frames.len(), "frame"),
@@ -169,9 +170,20 @@ impl FrameTrace {
     pub(super) fn with_conflicting_clocks(self, parting: ClockConflict) -> Self {
         Self { clocks: Clocks::Conflicting(parting), ..self }
     }
-    /// Returns the same frames, where the first one took `lead_ns` nanoseconds until it began.
-    pub(super) fn with_lead(self, lead_ns: i64) -> Self {
-        Self { lead_ns, ..self }
+    /// Returns the same frames, where the first one took `lead_ns` nanoseconds from the start of the clock.
+    pub(super) fn with_lead(mut self, lead_ns: i64) -> Self {
+        if let Source::Recorded(frames) = &mut self.source {
+            for frame in Arc::make_mut(frames) {
+                frame.began_ns += lead_ns;
+                frame.displayed_ns = frame.displayed_ns.map(|ns| ns + lead_ns);
+            }
+        }
+        Self { lead_ns: Some(lead_ns), ..self }
+    }
+    /// Whether the first frame has a duration, which counts from the start of the trace, so that a list of five times
+    /// is five frames.
+    pub fn first_counts(&self) -> bool {
+        self.lead_ns.is_some()
     }
     /// Returns a notice about a log whose display times are missing or not used; `None` for any other trace.
     pub fn missing_display(&self) -> Option<&'static str> {

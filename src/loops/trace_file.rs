@@ -509,6 +509,11 @@ fn read_in(
             .notes
             .push(format!("{repeated} rows have the time of the row before, and are left out"));
     }
+    if columns.counts_first() && checks.frames_ms.iter().all(|ms| ms.fract() == 0.0) {
+        taken.notes.push(
+            "the times are whole milliseconds, so that unevenness below one is rounding".into(),
+        );
+    }
     let median_ms = median(&checks.frames_ms).unwrap_or(0.0);
     if median_ms > MAX_USUAL_MS {
         taken.notes.push(format!(
@@ -518,9 +523,13 @@ fn read_in(
     }
     let known = Some(ClockConflict::Rate).filter(|_| checks.is_rate_wrong());
     let trace = |(name, stream): (String, Stream)| {
-        let lead_ns = if columns.counts_first() { stream.lead_ns() } else { 0 };
+        let lead_ns = columns.counts_first().then(|| stream.lead_ns());
         let trace = stream.into_trace(name, columns.is_sure_of_time(), known);
-        let trace = trace.written_by(format.clone()).with_lead(lead_ns).with_taken(taken.clone());
+        let trace = trace.written_by(format.clone()).with_taken(taken.clone());
+        let trace = match lead_ns {
+            Some(lead_ns) => trace.with_lead(lead_ns),
+            None => trace,
+        };
         match (columns.has_display(), columns.has_one_clock()) {
             _ if trace.missing_display().is_some() => trace,
             (false, _) => trace.without_display(),

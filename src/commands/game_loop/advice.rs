@@ -11,7 +11,7 @@ pub(super) fn print_advice(rows: &[Measured], latency_ms: f64, limits: FrameLimi
     let trace =
         format!("{} ({} Hz display, {:.3} Hz ticks)", first.trace, first.refresh, first.tick_hz);
     let measured = rows.iter().map(|row| (row.card, &row.report));
-    let loops = MeasuredLoops::new(measured, first.tick_hz, first.has_one_clock);
+    let loops = MeasuredLoops::new(measured, first.tick_hz, first.refresh, first.has_one_clock);
     // The message does not speak of a subset if all policies were measured, just as in the window.
     let are_all = rows.len() == POLICIES.len();
     match loops.advised(latency_ms) {

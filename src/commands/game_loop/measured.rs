@@ -85,9 +85,10 @@ pub(super) fn measure(
     })
 }
 
-fn row(trace: &str, card: &PolicyCard, run: &LoopRun, record: &FrameRecord) -> [Value; 9] {
+fn row(trace: &str, card: &PolicyCard, run: &LoopRun, record: &FrameRecord) -> [Value; 12] {
     let ms = |ns: i64| ns as f64 / 1e6;
     let FrameRecord { number, frame, shown_ms, steps, dropped_ms, .. } = record;
+    let FrameRecord { step_ms, owed_ms, alpha, .. } = record;
     [
         json!(trace),
         json!(card.id),
@@ -98,6 +99,9 @@ fn row(trace: &str, card: &PolicyCard, run: &LoopRun, record: &FrameRecord) -> [
         json!(steps.count),
         json!(dropped_ms),
         json!(run.lane().drawn_coordinates(0)[0]),
+        json!(step_ms),
+        json!(owed_ms),
+        json!(alpha),
     ]
 }
 

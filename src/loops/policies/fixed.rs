@@ -17,8 +17,10 @@ impl Fixed {
     /// Limits the ticks in a frame to those of the longest frame, which lasts [`MAX_FRAME_MS`] unless another limit is
     /// set.
     pub(super) fn new(base: TimeBase, limits: FrameLimits) -> Self {
-        let longest_ms = limits.max_frame_ms.unwrap_or(MAX_FRAME_MS);
-        let most = max_ticks(base.tick_hz(), 100, longest_ms);
+        let most = match (limits.long_frame, limits.max_frame_ms) {
+            (Some(_), None) => u32::MAX,
+            (_, longest_ms) => max_ticks(base.tick_hz(), 100, longest_ms.unwrap_or(MAX_FRAME_MS)),
+        };
         Self::with_max_ticks(base, limits.max_ticks.unwrap_or(most))
     }
 
