@@ -13,10 +13,11 @@ use super::error::Error;
 use super::experiment::{PathOrName, scene_names, some_seconds, trace_names};
 use super::file_names::{check_picture_name, row_format};
 use super::help::flowing;
-use super::id::POLICY;
+use super::id::ENGINE;
 use super::interrupt::watch_for_interrupt;
 use super::output::table::{RowFormat, RowWriter};
 use super::output::{Destination, Input, Output, STDOUT, same_file_path};
+use super::own_loop::{LoopOrFile, setting};
 use super::own_method::METHOD_OR_FILE;
 use super::scene_file;
 use super::table_args::{TableArgs, taken_object};
@@ -24,17 +25,19 @@ use super::tick_rate::TickRateArgs;
 use super::trace_source::traces;
 use crate::atomic_file::IfExists;
 use crate::loops::{
-    Excess, FrameLimits, FrameTrace, LongFrame, MIN_RUN_S, PACING_METRICS, POLICIES, PacingMetric,
-    PolicyCard, RefreshRate, USUAL_LATENCY_MS, trace_card,
+    ENGINES, Excess, FrameLimits, FrameTrace, LongFrame, MIN_RUN_S, PACING_METRICS, POLICIES,
+    PacingMetric, PolicyCard, RefreshRate, USUAL_LATENCY_MS, trace_card,
 };
 use crate::run::Unit;
 use crate::scene::{LaneSpec, Scene};
 use crate::sim::integrators::Method;
 use crate::sim::number::counted;
+use crate::table::TableOptions;
 
 mod advice;
 #[cfg(feature = "view")]
 mod diagram;
+mod engine;
 mod measured;
 
 use measured::{Measured, Stretch, drawn_from_ns, measure};
@@ -68,6 +71,8 @@ Examples:
   regatta loop > loops.csv
   regatta loop --trace steady-144 --policy fixed --policy fixed-linear
   regatta loop --trace capture.csv --tick-hz 50
+  regatta loop --engine phaser --trace capture.csv
+  regatta loop --policy mine.loop --policy bevy --set hz=60
   regatta loop --fps 200 --display-hz 144 --max-ticks 2";
 
 /// Measure what game loops do to motion on a display
@@ -76,13 +81,36 @@ Examples:
 pub(super) struct LoopArgs {
     /// A policy, or several [default: the usual ones]
     ///
-    /// `regatta list policies` has them. Give the option again for each, to compare them.
-    #[arg(long = "policy", value_name = "ID", value_parser = POLICY, hide_possible_values = true)]
+    /// `regatta list policies` has them, and `regatta list engines` the loops of engines. A file that ends in .loop is a
+    /// loop of your own. Give the option again for each, to compare them.
+    #[arg(long = "policy", value_name = "ID|FILE", value_parser = LoopOrFile, hide_possible_values = true)]
     policies: Vec<&'static PolicyCard>,
 
     /// Compare all policies
     #[arg(long, conflicts_with = "policies")]
     all: bool,
+
+    /// The loop of your engine, with what it does to your game in three lines
+    ///
+    /// `regatta list engines` has them.
+    #[arg(long, value_name = "ID", value_parser = ENGINE, hide_possible_values = true)]
+    #[arg(conflicts_with_all = ["policies", "all", "engines"])]
+    engine: Option<&'static PolicyCard>,
+
+    /// Compare the loops of all engines
+    #[arg(long, conflicts_with = "policies")]
+    engines: bool,
+
+    /// A constant of the loop's lines, such as max_ticks=4
+    ///
+    /// `regatta list engines --format json` has those of engines. Give the option again for each.
+    #[arg(long = "set", value_name = "NAME=N", value_parser = setting)]
+    settings: Vec<(String, f64)>,
+
+    /// What a tick costs, for loops that count it [default: nothing]
+    #[arg(long, value_name = "ms")]
+    #[arg(value_parser = clap::value_parser!(u32).range(..=60_000))]
+    cost_ms: Option<u32>,
 
     /// A trace, or several [default: all built-in ones]
     ///
@@ -194,8 +222,12 @@ pub(super) fn run(args: &LoopArgs) -> Result<(), Error> {
     let (scene, _) = scene_file::load(&args.scene)?;
     scene_file::check_method(&scene, args.method)?;
     let scene = Scene { tick_hz: args.tick_rate.tick_rate().unwrap_or(scene.tick_hz), ..scene };
-    let limits = args.limits()?;
-    let traces = traces(&args.traces, &args.table.options(), args.display_hz, args.fps)?;
+    let policies = args.policies()?;
+    let limits = args.limits(&policies)?;
+    // Ideal loops refuse a clock that is set back.
+    let signed = policies.iter().all(|card| card.is_lines());
+    let options = TableOptions { signed, ..args.table.options() };
+    let traces = traces(&args.traces, &options, args.display_hz, args.fps)?;
     let format = row_format(&args.out, args.format)?;
     if let Some(plot) = args.plot() {
         check_picture_name(plot, &args.out)?;
@@ -231,7 +263,7 @@ pub(super) fn run(args: &LoopArgs) -> Result<(), Error> {
         let until_ns = args.until_ns(&scene, trace);
         let drawn_from_ns = args.plot().map(|_| drawn_from_ns(trace, until_ns));
         let stretch = Stretch { until_ns, drawn_from_ns };
-        for card in args.policies() {
+        for &card in &policies {
             let spec = LaneSpec::plain(args.method);
             rows.push(measure(
                 &scene,
@@ -246,7 +278,10 @@ pub(super) fn run(args: &LoopArgs) -> Result<(), Error> {
                 return Err(Error::nothing_written());
             }
         }
-        advice::print_advice(&rows[from..], args.latency_ms, limits);
+        match (args.engine, &rows[from..]) {
+            (Some(_), [row]) => engine::print_answer(row, limits),
+            (_, rows) => advice::print_advice(rows, args.latency_ms, limits),
+        }
     }
     write_measured(out, format, &rows, &traces)?;
     if let Some(frames) = frames {
@@ -262,9 +297,29 @@ pub(super) fn run(args: &LoopArgs) -> Result<(), Error> {
 impl LoopArgs {
     /// Returns the limits on the simulated part of a frame, or an error if `--max-ticks` is given for a policy that
     /// ignores it.
-    fn limits(&self) -> Result<FrameLimits, Error> {
-        let free =
-            self.policies.iter().find(|card| self.max_ticks.is_some() && !card.has_max_ticks);
+    fn limits(&self, policies: &[&'static PolicyCard]) -> Result<FrameLimits, Error> {
+        let asked = policies.iter().filter(|_| !self.policies.is_empty() || self.engine.is_some());
+        let lines = policies.iter().find(|card| card.is_lines());
+        let (is_cut, is_kept) = (self.max_frame_ms.is_some(), self.excess == Excess::Keep);
+        let cut = [
+            ("--max-ticks", self.max_ticks.is_some()),
+            ("--max-frame-ms", is_cut),
+            ("--long-frame", self.long_frame.is_some()),
+            ("--excess", is_kept),
+        ];
+        if let (Some(card), Some((option, _))) = (lines, cut.iter().find(|(_, is_set)| *is_set)) {
+            let known = match card.constants {
+                "" => "write it into the lines".to_owned(),
+                constants => {
+                    format!("its lines have --set {}", constants.replace(", ", ", --set "))
+                }
+            };
+            return Err(Error::mistake(format!(
+                "{option} is for ideal loops, and {} has its own limits; {known}",
+                card.id
+            )));
+        }
+        let free = asked.into_iter().find(|card| self.max_ticks.is_some() && !card.has_max_ticks);
         if let Some(card) = free {
             let limited = POLICIES.iter().filter(|card| card.has_max_ticks).map(|card| card.id);
             return Err(Error::mistake(format!(
@@ -273,8 +328,8 @@ impl LoopArgs {
                 limited.collect::<Vec<_>>().join(", ")
             )));
         }
-        let Self { max_ticks, max_frame_ms, excess, long_frame, .. } = *self;
-        Ok(FrameLimits { max_ticks, max_frame_ms, excess, long_frame })
+        let Self { max_ticks, max_frame_ms, excess, long_frame, cost_ms, .. } = *self;
+        Ok(FrameLimits { max_ticks, max_frame_ms, excess, long_frame, cost_ms })
     }
 
     /// Returns the files that the command reads.
@@ -292,18 +347,50 @@ impl LoopArgs {
         None
     }
 
-    /// Returns the requested policies without duplicates.
-    fn policies(&self) -> Vec<&'static PolicyCard> {
-        if self.policies.is_empty() {
-            return POLICIES.iter().filter(|card| self.all || card.is_usual).collect();
-        }
-        let mut policies: Vec<&'static PolicyCard> = Vec::new();
-        for &card in &self.policies {
-            if !policies.contains(&card) {
-                policies.push(card);
+    /// Returns the requested policies without duplicates, with their settings.
+    fn policies(&self) -> Result<Vec<&'static PolicyCard>, Error> {
+        let mut policies: Vec<&'static PolicyCard> = match (&*self.policies, self.engine) {
+            ([], Some(engine)) => vec![engine],
+            ([], None) => {
+                let is_ideal = self.all || !self.engines;
+                let ideal = POLICIES.iter().filter(|card| is_ideal && (self.all || card.is_usual));
+                ideal.chain(ENGINES.iter().filter(|_| self.engines)).collect()
             }
+            (policies, _) => policies.to_vec(),
+        };
+        let mut seen = Vec::new();
+        policies.retain(|card| {
+            !seen.contains(&card.id) && {
+                seen.push(card.id);
+                true
+            }
+        });
+        let tick_hz = self.tick_rate.tick_rate().map(|hz| ("hz".to_owned(), f64::from(hz)));
+        let has = |card: &PolicyCard, name: &str| {
+            let mut constants = card.constants.split(", ");
+            constants.any(|constant| constant.split('=').next() == Some(name))
+        };
+        if let Some((name, _)) =
+            self.settings.iter().find(|(name, _)| !policies.iter().any(|card| has(card, name)))
+        {
+            let known: Vec<&str> = policies
+                .iter()
+                .map(|card| card.constants)
+                .filter(|_| policies.iter().all(|card| card.is_lines()))
+                .collect();
+            return Err(Error::mistake(match &*known.join(", ") {
+                "" => format!(
+                    "no line declares {name:?}; write `const {name} = …` into the lines of a loop"
+                ),
+                known => format!("no line declares {name:?}; set one of {known}"),
+            }));
         }
-        policies
+        let set = |card: &'static PolicyCard| {
+            let settings = tick_hz.iter().chain(&self.settings).filter(|(name, _)| has(card, name));
+            let settings: Vec<_> = settings.cloned().collect();
+            card.with_settings(&settings).unwrap_or(card)
+        };
+        Ok(policies.into_iter().map(set).collect())
     }
 
     /// Returns the time at which a run of `trace` ends, in nanoseconds.

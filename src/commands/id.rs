@@ -6,7 +6,7 @@ use clap::builder::{PossibleValue, TypedValueParser};
 
 #[cfg(feature = "view")]
 use crate::look::palette::Theme;
-use crate::loops::{POLICIES, PolicyCard, TRACES, TraceCard};
+use crate::loops::{ENGINES, POLICIES, PolicyCard, TRACES, TraceCard};
 use crate::measure::cloud::{CloudKind, CloudShape};
 use crate::scene::nearest;
 use crate::sim::integrators::{Family, METHODS, Method};
@@ -87,11 +87,22 @@ pub(super) const METHOD: Id<&Method> = Id {
     ..Id::new("method", || METHODS.iter().map(|method| (method.id.into(), method)).collect())
 };
 
-pub(super) const POLICY: Id<&PolicyCard> = Id {
-    lists: &["policies"],
-    spellings: || POLICIES.iter().map(|card| (card.name, card.id)).collect(),
-    ..Id::new("policy", || POLICIES.iter().map(|card| (card.id.into(), card)).collect())
+/// The ideal loops, and those of engines and libraries.
+pub(super) const LOOP: Id<&PolicyCard> = Id {
+    lists: &["policies", "engines"],
+    spellings: || loops().map(|card| (card.name, card.id)).collect(),
+    ..Id::new("policy", || loops().map(|card| (card.id.into(), card)).collect())
 };
+
+pub(super) const ENGINE: Id<&PolicyCard> = Id {
+    lists: &["engines"],
+    spellings: || ENGINES.iter().map(|card| (card.name, card.id)).collect(),
+    ..Id::new("engine", || ENGINES.iter().map(|card| (card.id.into(), card)).collect())
+};
+
+fn loops() -> impl Iterator<Item = &'static PolicyCard> {
+    POLICIES.iter().chain(ENGINES.iter())
+}
 
 pub(super) const TRACE: Id<&TraceCard> = Id {
     lists: &["traces"],

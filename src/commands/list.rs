@@ -8,7 +8,7 @@ use serde_json::{Value, json};
 use super::error::Error;
 use super::help::flowing;
 use super::output::table::{self, Column, TableFormat};
-use crate::loops::{POLICIES, PolicyCard, RefreshRate, TRACES, TraceCard};
+use crate::loops::{ENGINES, POLICIES, PolicyCard, RefreshRate, TRACES, TraceCard};
 use crate::run::{METRICS, Metric, Scale};
 use crate::scene::{BuiltIn, SCENES, Scene, SceneKey, scene_tables};
 use crate::sim::BodyClass;
@@ -23,9 +23,9 @@ Examples:
   regatta list bodies                  the tables and keys of a scene file
   regatta list methods --format json   with everything on a method's card";
 
-const WHAT: &str = "scenes|methods|bodies|metrics|policies|traces|keys";
+const WHAT: &str = "scenes|methods|bodies|metrics|policies|engines|traces|keys";
 
-/// List scenes, methods, bodies, metrics, policies, traces or keys
+/// List scenes, methods, bodies, metrics, policies, engines, traces or keys
 #[derive(Debug, Args)]
 #[command(after_long_help = flowing(EXAMPLES))]
 #[command(override_usage = "regatta list [OPTIONS] <WHAT>")]
@@ -51,6 +51,8 @@ enum Listing {
     Metrics,
     /// The game loops, for `loop --policy`
     Policies,
+    /// The loops of engines and libraries, for `loop --policy` and `loop --engine`
+    Engines,
     /// The frame traces, for `loop --trace`
     Traces,
     /// The keys of the window
@@ -74,6 +76,7 @@ pub(super) fn run(args: &ListArgs) -> Result<(), Error> {
         Listing::Bodies => write(BODY, &BODIES, args.format),
         Listing::Metrics => write(METRIC, METRICS, args.format),
         Listing::Policies => write(POLICY, POLICIES, args.format),
+        Listing::Engines => write(ENGINE, &ENGINES, args.format),
         Listing::Traces => write(TRACE, TRACES, args.format),
         Listing::Keys => write(KEY, KEYS, args.format),
     };
@@ -295,6 +298,17 @@ const POLICY: &[Column<PolicyCard>] = &[
     Column::new("languages", |policy| {
         policy.snippets.iter().map(|snippet| snippet.language).collect()
     }),
+];
+
+const ENGINE: &[Column<PolicyCard>] = &[
+    Column::shown("id", "ID", |card| json!(card.id)),
+    Column::shown("name", "NAME", |card| json!(card.name)),
+    Column::shown("version", "VERSION", |card| json!(card.engine.map(|engine| engine.version))),
+    Column::shown("gives", "GIVES", |card| json!(card.formula)),
+    Column::shown("known", "KNOWN", |card| json!(card.source)),
+    Column::new("settings", |card| json!(card.constants)),
+    Column::new("caveat", |card| json!(card.engine.map(|engine| engine.caveat))),
+    Column::new("set", |card| json!(card.engine.map(|engine| engine.advice))),
 ];
 
 const TRACE: &[Column<TraceCard>] = &[

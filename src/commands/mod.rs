@@ -81,6 +81,7 @@ mod file_names;
 mod interrupt;
 mod jobs;
 mod output;
+mod own_loop;
 mod own_method;
 mod table_args;
 mod terminal;

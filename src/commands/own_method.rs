@@ -10,6 +10,8 @@ use clap::error::ErrorKind;
 use super::argument::brief;
 use super::error::Error;
 use super::id::{Id, METHOD};
+use super::own_loop;
+use crate::loops::PolicyCard;
 use crate::regular_file;
 use crate::scene::{LaneSpec, MAX_FILE_BYTES};
 use crate::sim::integrators::Method;
@@ -20,11 +22,13 @@ pub(super) struct OrStepFile<T: 'static> {
     pub(super) id: Id<T>,
     /// Converts a method to the type that is parsed.
     pub(super) of: fn(&'static Method) -> T,
+    /// Converts the loop of a `.loop` file, if one is accepted.
+    pub(super) of_loop: Option<fn(&'static PolicyCard) -> T>,
 }
 
 /// Parser for the id of a method, or for the path of a `.step` file.
 pub(super) const METHOD_OR_FILE: OrStepFile<&Method> =
-    OrStepFile { id: METHOD, of: |method| method };
+    OrStepFile { id: METHOD, of: |method| method, of_loop: None };
 
 impl<T: Copy + Send + Sync + 'static> TypedValueParser for OrStepFile<T> {
     type Value = T;
@@ -35,19 +39,25 @@ impl<T: Copy + Send + Sync + 'static> TypedValueParser for OrStepFile<T> {
         arg: Option<&clap::Arg>,
         value: &OsStr,
     ) -> Result<T, clap::Error> {
-        if !is_step(Path::new(value)) {
-            return self.id.parse_ref(command, arg, value);
-        }
-        load(Path::new(value)).map(self.of).map_err(|error| {
-            let report = error.report(&Renderer::plain());
-            let report = report.strip_prefix("error: ").unwrap_or(&report);
-            clap::Error::raw(ErrorKind::ValueValidation, format!("{report}\n"))
-        })
+        let path = Path::new(value);
+        let loaded = match self.of_loop.filter(|_| own_loop::is_loop(path)) {
+            Some(of) => own_loop::load(path).map(of),
+            None if !is_step(path) => return self.id.parse_ref(command, arg, value),
+            None => load(path).map(self.of),
+        };
+        loaded.map_err(refusal)
     }
 
     fn possible_values(&self) -> Option<Box<dyn Iterator<Item = PossibleValue> + '_>> {
         Some(Box::new((self.id.all)().into_iter().map(|(id, _)| PossibleValue::new(id))))
     }
+}
+
+/// Returns the refusal of an argument for an error in its file.
+pub(super) fn refusal(error: Error) -> clap::Error {
+    let report = error.report(&Renderer::plain());
+    let report = report.strip_prefix("error: ").unwrap_or(&report);
+    clap::Error::raw(ErrorKind::ValueValidation, format!("{report}\n"))
 }
 
 /// Whether the name of a file promises the lines of a step.

@@ -4,7 +4,7 @@ use clap::Args;
 
 use super::error::Error;
 use super::help::flowing;
-use super::id::{Id, LANGUAGE, METHOD, POLICY, languages_by_other_names};
+use super::id::{Id, LANGUAGE, LOOP, METHOD, languages_by_other_names};
 use super::output::print;
 use super::own_method::OrStepFile;
 use super::terminal::print_status;
@@ -35,7 +35,8 @@ Examples:
 pub(super) struct ShowArgs {
     /// A method, by its id or another name, or a game loop
     ///
-    /// `regatta list methods` and `regatta list policies` have them. A file that ends in .step is a method of your own.
+    /// `regatta list methods` and `regatta list policies` have them. A file that ends in .step is a method of your own,
+    /// one that ends in .loop a loop.
     #[arg(value_name = "METHOD|POLICY|FILE", value_parser = ITEM_OR_FILE, hide_possible_values = true)]
     asked: ShownItem,
 
@@ -63,14 +64,17 @@ enum ShownItem {
     Loop(&'static PolicyCard),
 }
 
-/// Parser for the ids of `SHOWN_ITEM`, or for the path of a `.step` file.
-const ITEM_OR_FILE: OrStepFile<ShownItem> =
-    OrStepFile { id: SHOWN_ITEM, of: |method| ShownItem::Method { method, alias: None } };
+/// Parser for the ids of `SHOWN_ITEM`, or for the path of a `.step` or `.loop` file.
+const ITEM_OR_FILE: OrStepFile<ShownItem> = OrStepFile {
+    id: SHOWN_ITEM,
+    of: |method| ShownItem::Method { method, alias: None },
+    of_loop: Some(ShownItem::Loop),
+};
 
 /// Parser for the id of a method, one of its other ids, or the id of a game loop.
 const SHOWN_ITEM: Id<ShownItem> = Id {
     thing: "method or policy",
-    lists: &["methods", "policies"],
+    lists: &["methods", "policies", "engines"],
     all: || {
         let own = METHODS.iter().map(|it| (it.id, ShownItem::Method { method: it, alias: None }));
         let others = METHODS.iter().flat_map(|method| {
@@ -78,10 +82,10 @@ const SHOWN_ITEM: Id<ShownItem> = Id {
             method.also.iter().copied().map(with)
         });
         let methods = own.chain(others).map(|(id, asked)| (id.to_owned(), asked));
-        let loops = (POLICY.all)().into_iter().map(|(id, card)| (id, ShownItem::Loop(card)));
+        let loops = (LOOP.all)().into_iter().map(|(id, card)| (id, ShownItem::Loop(card)));
         methods.chain(loops).collect()
     },
-    spellings: || [(METHOD.spellings)(), (POLICY.spellings)()].concat(),
+    spellings: || [(METHOD.spellings)(), (LOOP.spellings)()].concat(),
 };
 
 /// A language of the code.
@@ -151,6 +155,11 @@ pub(super) fn run(args: &ShowArgs) -> Result<(), Error> {
 
 /// Returns the source code of a loop in a language.
 fn snippet(card: &PolicyCard, language: CodeLanguage) -> Result<&'static str, Error> {
+    if let (Some(engine), CodeLanguage::Step | CodeLanguage::Of(Language::Rust)) =
+        (card.engine, language)
+    {
+        return Ok(engine.text);
+    }
     let found = |written: CodeLanguage| {
         let mut snippets = card.snippets.iter();
         snippets.find(|snippet| snippet.language == written.of_loops())
@@ -160,6 +169,7 @@ fn snippet(card: &PolicyCard, language: CodeLanguage) -> Result<&'static str, Er
             (CODE_LANGUAGE.all)().into_iter().filter(|(_, written)| found(*written).is_some());
         let known: Vec<String> = known.map(|(id, _)| id).collect();
         let asked = language.of_loops();
+        let known = if card.is_lines() { vec!["step".into()] } else { known };
         Error::mistake(format!(
             "{} is not written out in {asked}; give --as {}",
             card.id,

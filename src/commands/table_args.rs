@@ -74,6 +74,7 @@ impl TableArgs {
             rows: self.rows,
             window_s: [self.start, self.end],
             filter: self.filter.clone(),
+            signed: false,
             unit: self.unit,
             frame: self.frame_column.clone(),
             clock: self.clock_column.clone(),

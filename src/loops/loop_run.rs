@@ -65,8 +65,12 @@ impl LoopRun {
     ) -> Self {
         let base = TimeBase::new(scene.tick_hz, trace.refresh());
         let lane = Lane::new(scene, spec.solver(), spec.substeps);
+        let mut lane = PacedLane::new(Pacer::limited(card, base, limits), lane);
+        if trace.first_counts() && card.is_lines() {
+            lane.frame(0, 0.0, |_, _, _| {});
+        }
         Self {
-            lane: PacedLane::new(Pacer::limited(card, base, limits), lane),
+            lane,
             truth: ScriptedTruth::new(scene),
             frames: trace.frames(),
             meter: PacingMeter::default(),
@@ -102,14 +106,17 @@ impl LoopRun {
     pub fn next_frame(&mut self) -> Option<FrameRecord> {
         let steps_before = self.last.map_or(0, |(_, steps)| steps.count);
         let mut frame = self.frames.next(steps_before)?;
+        let mut ms = self.frames.duration_ms(frame);
         for _ in 1..if self.last.is_some() { self.stride } else { 1 } {
             frame = self.frames.next(0)?;
+            ms += self.frames.duration_ms(frame);
         }
         let steps = match self.last {
-            None => Steps::default(),
-            Some((last, _)) => {
+            None if !self.lane.pacer().card().is_lines() => Steps::default(),
+            last => {
                 let script = &mut self.script;
-                self.lane.frame(frame.began_ns - last.began_ns, |step, t, lane| {
+                let duration_ns = last.map_or(0, |(last, _)| frame.began_ns - last.began_ns);
+                self.lane.frame(duration_ns, ms, |step, t, lane| {
                     while let Some((_, action)) = script.next_due(t) {
                         lane.act(step, t, &action);
                     }

@@ -36,7 +36,8 @@ pub struct PacingReport {
     pub owed_ms: f64,
     /// Simulated time in percent of the real time; `None` until time has passed.
     pub speed_percent: Option<f64>,
-    /// Frames that simulate half a tick more than they last, to catch up on a tick or more that was owed before.
+    /// Frames that simulate half a tick more than they last, while more than a tick and a half was owed before. A tick
+    /// that rounding delays by a frame is none.
     pub fast_forward_frames: u64,
     /// Frames that show an earlier moment than the frame before.
     pub backward_frames: u64,
@@ -276,7 +277,7 @@ impl PacingMeter {
         let now = [pacer.passed(), pacer.owed(), shown];
         if let Some([passed, owed, shown_before]) = self.before.replace(now) {
             let gained = steps.span - (pacer.passed() - passed);
-            self.fast_forward += u64::from(owed + leeway >= tick && 2 * gained >= tick);
+            self.fast_forward += u64::from(2 * owed >= 3 * tick && 2 * gained >= tick);
             self.backward += u64::from(shown + leeway < shown_before);
         }
         let displayed = base.nanoseconds(frame.displayed_ns?);

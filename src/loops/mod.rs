@@ -7,6 +7,8 @@
 //! there is no clock here.
 
 mod advice;
+mod engines;
+mod hitch;
 pub mod loop_lab;
 mod loop_run;
 mod metrics;
@@ -23,13 +25,15 @@ mod verdict;
 
 pub use crate::sim::{Accumulator, Due, MAX_FRAME_MS};
 pub use advice::{AdvisedLoop, MeasuredLoops, NoLoop, USUAL_LATENCY_MS};
+pub use engines::{ENGINES, engine, own_loop};
+pub use hitch::Hitch;
 pub use loop_run::{LoopRun, MIN_RUN_S};
 pub use metrics::{FrameRecord, PACING_METRICS, PacingMetric, PacingReport};
 pub use paced_lane::PacedLane;
 pub use pacer::Pacer;
 pub use patterns::{TRACES, TraceCard, frames_on_display, steady_trace, trace_card};
 pub use policies::{POLICIES, policy};
-pub use policy::{Excess, FrameLimits, LongFrame, Policy, PolicyCard, Snippet, Steps};
+pub use policy::{Engine, Excess, FrameLimits, LongFrame, Policy, PolicyCard, Snippet, Steps};
 pub use time_base::{RefreshRate, TimeBase};
 pub use trace::{Frame, FrameTrace, Frames};
 pub use verdict::LoopVerdict;

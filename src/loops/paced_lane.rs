@@ -43,21 +43,24 @@ impl PacedLane {
         self.lane.evaluations() + self.evaluations_ahead
     }
 
-    /// Makes the steps of a frame, where `duration_ns` is the duration of the last frame in nanoseconds. Before each
-    /// step it calls `before_step` with the number of steps made and the time in seconds.
+    /// Makes the steps of a frame, where `duration_ns` is the duration of the last frame in nanoseconds, and `ms` the same
+    /// in milliseconds as a clock in double precision reads it. Before each step it calls `before_step` with the number of steps made and the time in seconds.
     pub fn frame(
         &mut self,
         duration_ns: i64,
+        ms: f64,
         mut before_step: impl FnMut(u64, f64, &mut Lane),
     ) -> Steps {
         let from = self.pacer.simulated();
-        let steps = self.pacer.frame(duration_ns);
+        let steps = self.pacer.frame_in_ms(duration_ns, ms);
         let base = self.pacer.base();
         let edge = |i: u32| from + steps.span * i128::from(i) / i128::from(steps.count.max(1));
         for i in 0..steps.count {
             let (t, h) = (base.seconds(edge(i)), base.seconds(edge(i + 1) - edge(i)));
             before_step(self.steps, t, &mut self.lane);
-            self.lane.tick(self.steps, t, h);
+            if h != 0.0 {
+                self.lane.tick(self.steps, t, h);
+            }
             self.steps += 1;
             self.last_step_s = h;
         }

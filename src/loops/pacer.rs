@@ -32,7 +32,7 @@ impl Pacer {
 
     /// Like [`new`](Self::new), with limits on the work in a frame.
     pub fn limited(card: &'static PolicyCard, base: TimeBase, limits: FrameLimits) -> Self {
-        let policy = (card.build)(base, limits);
+        let policy = card.policy(base, limits);
         let longest = limits.max_frame_ms.map(|ms| base.nanoseconds(i64::from(ms) * 1_000_000));
         let FrameLimits { long_frame, excess, .. } = limits;
         Self {
@@ -68,7 +68,7 @@ impl Pacer {
     }
     /// Returns the length of a tick.
     pub fn tick(&self) -> i128 {
-        self.base.tick()
+        self.policy.tick().unwrap_or(self.base.tick())
     }
     /// Returns the dropped time.
     pub fn dropped(&self) -> i128 {
@@ -82,6 +82,20 @@ impl Pacer {
     /// Decides on the steps of a frame. `duration_ns` is the duration of the last frame in nanoseconds; a negative
     /// one counts as 0.
     pub fn frame(&mut self, duration_ns: i64) -> Steps {
+        self.frame_in_ms(duration_ns, duration_ns as f64 / 1e6)
+    }
+
+    /// Decides on the steps of a frame like [`frame`](Self::frame). A loop of lines takes its duration in milliseconds,
+    /// which may be negative.
+    pub fn frame_in_ms(&mut self, duration_ns: i64, ms: f64) -> Steps {
+        if self.card.is_lines() {
+            let duration = self.base.nanoseconds(duration_ns);
+            let steps = self.policy.frame_in_ms(duration, ms);
+            self.passed += duration;
+            self.simulated += steps.span;
+            self.dropped += steps.dropped;
+            return steps;
+        }
         let duration = self.base.nanoseconds(duration_ns.max(0));
         let counted_ns = self.counted_ns(duration_ns.max(0));
         let counted = self.base.nanoseconds(counted_ns);
@@ -118,7 +132,7 @@ impl Pacer {
     /// Returns the position of the picture between the last tick and the next. It is in [0, 1] for policies that draw
     /// between ticks, in [-1/2, 3/2) under `hysteresis`, and 0 for policies without ticks.
     pub fn alpha(&self) -> f64 {
-        self.policy.owed() as f64 / self.base.tick() as f64
+        self.policy.owed() as f64 / self.tick() as f64
     }
 
     /// Returns the simulated moment in the picture. With interpolation, this moment begins one tick before the start.
@@ -128,7 +142,7 @@ impl Pacer {
             Interpolation::Raw if !self.card.has_render_tick => self.simulated,
             Interpolation::Raw | Interpolation::Extrapolated => now,
             Interpolation::Linear | Interpolation::Hermite | Interpolation::Monotone => {
-                now - self.base.tick()
+                now - self.tick()
             }
         }
     }

@@ -1,6 +1,6 @@
 //! The table of policies, and the policies without a memory.
 
-use super::policy::{Policy, PolicyCard, Snippet, Steps};
+use super::policy::{Build, Policy, PolicyCard, Snippet, Steps};
 use crate::run::race::Interpolation;
 use fixed::{Fixed, SlowDown};
 use hysteresis::Hysteresis;
@@ -10,6 +10,7 @@ use whole_refresh::WholeRefresh;
 
 mod fixed;
 mod hysteresis;
+pub(super) mod lines;
 mod median;
 mod snapped;
 mod whole_refresh;
@@ -41,7 +42,8 @@ const FIXED: PolicyCard = PolicyCard {
     has_max_ticks: true,
     is_usual: false,
     snippets: snippets!("fixed": "rust" "rs", "c++" "hpp", "c#" "cs"),
-    build: |base, limits| Box::new(Fixed::new(base, limits)),
+    build: Build::Rust(|base, limits| Box::new(Fixed::new(base, limits))),
+    engine: None,
 };
 
 /// Every policy of a game loop, with the simplest first.
@@ -61,7 +63,8 @@ pub static POLICIES: &[PolicyCard] = &[
         has_max_ticks: false,
         is_usual: true,
         snippets: snippets!("variable": "rust" "rs", "c++" "hpp", "c#" "cs"),
-        build: |_, _| Box::new(Variable { longest: None }),
+        build: Build::Rust(|_, _| Box::new(Variable { longest: None })),
+        engine: None,
     },
     PolicyCard {
         id: "lockstep",
@@ -78,7 +81,8 @@ pub static POLICIES: &[PolicyCard] = &[
         has_max_ticks: false,
         is_usual: false,
         snippets: snippets!("lockstep": "rust" "rs"),
-        build: |base, _| Box::new(Lockstep { tick: base.tick() }),
+        build: Build::Rust(|base, _| Box::new(Lockstep { tick: base.tick() })),
+        engine: None,
     },
     PolicyCard {
         id: "clamped-variable",
@@ -95,7 +99,10 @@ pub static POLICIES: &[PolicyCard] = &[
         has_max_ticks: false,
         is_usual: false,
         snippets: snippets!("clamped-variable": "rust" "rs", "c++" "hpp", "c#" "cs"),
-        build: |base, _| Box::new(Variable { longest: Some(base.nanoseconds(1_000_000_000) / 30) }),
+        build: Build::Rust(|base, _| {
+            Box::new(Variable { longest: Some(base.nanoseconds(1_000_000_000) / 30) })
+        }),
+        engine: None,
     },
     PolicyCard {
         id: "semi-fixed",
@@ -112,10 +119,11 @@ pub static POLICIES: &[PolicyCard] = &[
         has_max_ticks: true,
         is_usual: false,
         snippets: snippets!("semi-fixed": "rust" "rs", "c++" "hpp", "c#" "cs"),
-        build: |base, limits| {
+        build: Build::Rust(|base, limits| {
             let max_steps = limits.max_ticks.unwrap_or(MAX_STEPS);
             Box::new(SemiFixed { tick: base.tick(), rounding: base.nanoseconds(1), max_steps })
-        },
+        }),
+        engine: None,
     },
     PolicyCard { is_usual: true, needs_exact_clock: true, ..FIXED },
     PolicyCard {
@@ -170,7 +178,7 @@ pub static POLICIES: &[PolicyCard] = &[
         drawing: Interpolation::Linear,
         is_usual: true,
         snippets: snippets!("whole-refresh": "rust" "rs", "c++" "hpp", "c#" "cs"),
-        build: |base, limits| Box::new(WholeRefresh::new(base, limits)),
+        build: Build::Rust(|base, limits| Box::new(WholeRefresh::new(base, limits))),
         ..FIXED
     },
     PolicyCard {
@@ -183,7 +191,7 @@ pub static POLICIES: &[PolicyCard] = &[
         source: "T. Glaiel, \"How to make your game run at 60fps\", 2019",
         drawing: Interpolation::Linear,
         snippets: snippets!("snapped": "rust" "rs"),
-        build: |base, limits| Box::new(Snapped::new(base, limits)),
+        build: Build::Rust(|base, limits| Box::new(Snapped::new(base, limits))),
         ..FIXED
     },
     PolicyCard {
@@ -195,7 +203,7 @@ pub static POLICIES: &[PolicyCard] = &[
         users: "Godot (physics_jitter_fix = 0.5)",
         source: "Godot's MainTimerSync",
         snippets: snippets!("hysteresis": "rust" "rs"),
-        build: |base, limits| Box::new(Hysteresis::new(base, limits)),
+        build: Build::Rust(|base, limits| Box::new(Hysteresis::new(base, limits))),
         ..FIXED
     },
     PolicyCard {
@@ -213,7 +221,8 @@ pub static POLICIES: &[PolicyCard] = &[
         has_max_ticks: false,
         is_usual: false,
         snippets: snippets!("median": "rust" "rs"),
-        build: |base, _| Box::new(Median::new(base)),
+        build: Build::Rust(|base, _| Box::new(Median::new(base))),
+        engine: None,
     },
     PolicyCard {
         id: "slow-down",
@@ -224,7 +233,7 @@ pub static POLICIES: &[PolicyCard] = &[
         users: "Factorio (60 updates a second)",
         source: "Factorio Friday Facts",
         snippets: snippets!("slow-down": "rust" "rs", "c++" "hpp"),
-        build: |base, limits| Box::new(SlowDown::new(base.tick(), limits)),
+        build: Build::Rust(|base, limits| Box::new(SlowDown::new(base.tick(), limits))),
         ..FIXED
     },
 ];
@@ -284,7 +293,11 @@ impl Policy for SemiFixed {
     fn frame(&mut self, duration: i128) -> Steps {
         let fewest = -(self.rounding - duration).div_euclid(self.tick);
         let fewest = fewest.max(i128::from(duration > 0));
-        Steps { count: fewest.min(self.max_steps.into()) as u32, span: duration, dropped: 0 }
+        Steps {
+            count: fewest.min(self.max_steps.into()) as u32,
+            span: duration,
+            ..Steps::default()
+        }
     }
 
     fn boxed_clone(&self) -> Box<dyn Policy> {

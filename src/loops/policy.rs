@@ -1,7 +1,9 @@
 //! The policy of a game loop, which decides on the steps of each frame, and its card.
 
+use super::policies::lines::Lines;
 use super::time_base::TimeBase;
 use crate::run::race::Interpolation;
+use crate::sim::law::LoopText;
 
 /// The steps of a frame.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -12,12 +14,14 @@ pub struct Steps {
     pub span: i128,
     /// Real time that is dropped: it will never be simulated.
     pub dropped: i128,
+    /// Number of ticks that the engine reports, if it makes another number.
+    pub returned: Option<u32>,
 }
 
 impl Steps {
     /// Returns one step of this length, or none if the length is 0.
     pub fn one(span: i128) -> Self {
-        Self { count: u32::from(span > 0), span, dropped: 0 }
+        Self { count: u32::from(span > 0), span, ..Self::default() }
     }
 }
 
@@ -58,6 +62,8 @@ pub struct FrameLimits {
     pub excess: Excess,
     /// The treatment of long frames, before any other limit.
     pub long_frame: Option<LongFrame>,
+    /// Cost of a tick in milliseconds, for loops that count it.
+    pub cost_ms: Option<u32>,
 }
 
 /// A game loop's decisions and memory. Times are in the unit of a [`TimeBase`].
@@ -65,6 +71,16 @@ pub trait Policy: Send {
     /// Decides on the steps of a frame. `duration` is the duration of the last frame as a game would measure it, and
     /// never negative.
     fn frame(&mut self, duration: i128) -> Steps;
+
+    /// Decides on the steps of a frame like [`frame`](Self::frame), with its duration in milliseconds as a game reads it.
+    fn frame_in_ms(&mut self, duration: i128, _ms: f64) -> Steps {
+        self.frame(duration)
+    }
+
+    /// Returns the length of a tick, if the policy has its own.
+    fn tick(&self) -> Option<i128> {
+        None
+    }
 
     /// Returns the time since the last tick, for drawing between ticks; 0 for a policy without ticks.
     fn owed(&self) -> i128 {
@@ -124,10 +140,44 @@ pub struct PolicyCard {
     pub is_usual: bool,
     /// Source code to copy into a game.
     pub snippets: &'static [Snippet],
-    pub(super) build: fn(TimeBase, FrameLimits) -> Box<dyn Policy>,
+    /// The engine whose loop this is, or lines of a person's own.
+    pub engine: Option<Engine>,
+    pub(super) build: Build,
+}
+
+/// An engine or library, as far as its loop is concerned.
+#[derive(Clone, Copy, Debug)]
+pub struct Engine {
+    /// Version of the engine.
+    pub version: &'static str,
+    /// A sentence on what to beware of.
+    pub caveat: &'static str,
+    /// What to set.
+    pub advice: &'static str,
+    /// The lines of the loop.
+    pub text: &'static str,
+}
+
+/// How a policy is made.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Build {
+    Rust(fn(TimeBase, FrameLimits) -> Box<dyn Policy>),
+    Lines(&'static LoopText),
 }
 
 impl PolicyCard {
+    pub(super) fn policy(&self, base: TimeBase, limits: FrameLimits) -> Box<dyn Policy> {
+        match self.build {
+            Build::Rust(build) => build(base, limits),
+            Build::Lines(text) => Box::new(Lines::new(text, base, limits)),
+        }
+    }
+
+    /// Whether the loop is lines, which may be given times below 0.
+    pub fn is_lines(&self) -> bool {
+        matches!(self.build, Build::Lines(_))
+    }
+
     /// Returns the name of the interpolation between ticks, for people.
     pub fn drawing_name(&self) -> &'static str {
         if self.has_render_tick { "a copy stepped on" } else { self.drawing.name() }

@@ -42,6 +42,15 @@ impl RefreshRate {
         f64::from(self.numerator) / f64::from(self.denominator)
     }
 
+    /// Returns a time in milliseconds. If it is the start of a refresh in whole nanoseconds, returns the exact start.
+    pub(super) fn exact_ms(self, ns: i64) -> f64 {
+        let nearest = (ns as f64 * self.hz() / SECOND_NS as f64).round();
+        if ns >= 0 && self.refresh_ns(nearest as u64) == ns {
+            return nearest * 1000.0 * f64::from(self.denominator) / f64::from(self.numerator);
+        }
+        ns as f64 / 1e6
+    }
+
     /// Returns the start of refresh `n` in nanoseconds from the first, rounded up to the time at which a clock in
     /// nanoseconds sees it.
     pub fn refresh_ns(self, n: u64) -> i64 {

@@ -28,6 +28,8 @@ pub struct FrameTrace {
     format: String,
     /// Duration of the first frame before it began, in nanoseconds, if the log counts it. All frames are later by it.
     lead_ns: Option<i64>,
+    /// Duration of each frame in milliseconds as the log prints it, if the log counts the first.
+    exact_ms: Arc<[f64]>,
     /// The rows of the log that were taken; empty for a pattern.
     taken: Taken,
 }
@@ -90,6 +92,7 @@ impl FrameTrace {
             clocks: Clocks::Two,
             format: String::new(),
             lead_ns: None,
+            exact_ms: Arc::new([]),
             taken: Taken::default(),
         }
     }
@@ -103,7 +106,8 @@ impl FrameTrace {
         let source = Source::Pattern(Box::new(pattern));
         let (clocks, format) = (Clocks::One, String::new());
         let taken = Taken::default();
-        Self { name: name.into(), refresh, source, clocks, format, lead_ns: None, taken }
+        let exact_ms = Arc::new([]);
+        Self { name: name.into(), refresh, source, clocks, format, lead_ns: None, exact_ms, taken }
     }
 
     /// Returns the name of the trace.
@@ -170,15 +174,16 @@ impl FrameTrace {
     pub(super) fn with_conflicting_clocks(self, parting: ClockConflict) -> Self {
         Self { clocks: Clocks::Conflicting(parting), ..self }
     }
-    /// Returns the same frames, where the first one took `lead_ns` nanoseconds from the start of the clock.
-    pub(super) fn with_lead(mut self, lead_ns: i64) -> Self {
+    /// Returns the same frames, where the first one took `lead_ns` nanoseconds from the start of the clock, and each one
+    /// as many milliseconds as in `exact_ms`.
+    pub(super) fn with_lead(mut self, lead_ns: i64, exact_ms: Vec<f64>) -> Self {
         if let Source::Recorded(frames) = &mut self.source {
             for frame in Arc::make_mut(frames) {
                 frame.began_ns += lead_ns;
                 frame.displayed_ns = frame.displayed_ns.map(|ns| ns + lead_ns);
             }
         }
-        Self { lead_ns: Some(lead_ns), ..self }
+        Self { lead_ns: Some(lead_ns), exact_ms: exact_ms.into(), ..self }
     }
     /// Whether the first frame has a duration, which counts from the start of the trace, so that a list of five times
     /// is five frames.
@@ -216,7 +221,13 @@ impl FrameTrace {
     }
     /// Returns the frames of the trace, from the first.
     pub fn frames(&self) -> Frames {
-        Frames { source: self.source.clone(), next: 0 }
+        Frames {
+            source: self.source.clone(),
+            next: 0,
+            refresh: self.refresh,
+            exact_ms: self.exact_ms.clone(),
+            last_ms: 0.0,
+        }
     }
 }
 
@@ -225,6 +236,10 @@ impl FrameTrace {
 pub struct Frames {
     source: Source,
     next: usize,
+    refresh: RefreshRate,
+    exact_ms: Arc<[f64]>,
+    /// Time when the last frame began, which is exact if it began at a refresh.
+    last_ms: f64,
 }
 
 impl Frames {
@@ -240,4 +255,19 @@ impl Frames {
             Source::Pattern(pattern) => Some(pattern.next(steps)),
         }
     }
+
+    /// Returns the duration of a frame that [`next`](Self::next) just gave, in milliseconds, as a clock in double
+    /// precision reads it. It is not rounded to nanoseconds if the log prints it, or if frames begin at refreshes.
+    pub fn duration_ms(&mut self, frame: Frame) -> f64 {
+        let now_ms = CLOCK_MS + self.refresh.exact_ms(frame.began_ns);
+        let before_ms = std::mem::replace(&mut self.last_ms, now_ms);
+        match self.exact_ms.get(self.next.wrapping_sub(1)) {
+            Some(ms) => *ms,
+            None if before_ms == 0.0 => 0.0,
+            None => now_ms - before_ms,
+        }
+    }
 }
+
+/// Time of the clock at the start of a trace, in milliseconds.
+const CLOCK_MS: f64 = 1000.0;

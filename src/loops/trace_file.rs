@@ -405,7 +405,7 @@ fn read_in(
             return Err(at(line, Fault::ManyFrames));
         }
         let is_first = clocks.is_empty();
-        let mut cells = match columns.read(&row, in_unit) {
+        let mut cells = match columns.read(&row, in_unit, options.signed) {
             Err(Fault::Cell { fault: Unreadable::TooLong(_), .. })
                 if is_first && columns.is_of_mangohud() =>
             {
@@ -464,7 +464,8 @@ fn read_in(
     if streams.is_empty() {
         return Err(at(header_line, Fault::NoRows));
     }
-    if let Some(still) = streams.iter().find(|stream| stream.stands_still()) {
+    let mut still = streams.iter().filter(|stream| stream.stands_still() && !options.signed);
+    if let Some(still) = still.next() {
         return Err(at(still.line(), Fault::NoTimePasses { frames: still.frames() }));
     }
     let longest = streams.iter().max_by_key(|stream| stream.frames());
@@ -523,11 +524,11 @@ fn read_in(
     }
     let known = Some(ClockConflict::Rate).filter(|_| checks.is_rate_wrong());
     let trace = |(name, stream): (String, Stream)| {
-        let lead_ns = columns.counts_first().then(|| stream.lead_ns());
+        let counted = columns.counts_first().then(|| stream.counted());
         let trace = stream.into_trace(name, columns.is_sure_of_time(), known);
         let trace = trace.written_by(format.clone()).with_taken(taken.clone());
-        let trace = match lead_ns {
-            Some(lead_ns) => trace.with_lead(lead_ns),
+        let trace = match counted {
+            Some((lead_ns, exact_ms)) => trace.with_lead(lead_ns, exact_ms),
             None => trace,
         };
         match (columns.has_display(), columns.has_one_clock()) {

@@ -42,6 +42,7 @@ pub use step_text::{
     Carried, Declares, General, Input, LinearRule, MAX_STEP_BYTES, MethodInput, OwnLines, Request,
     RuleBody, StepCall, StepMap, StepRegisters, StepText,
 };
+pub use step_text::{FrameInput, FrameOutput, LoopText};
 pub use tape::MAX_OPERATIONS;
 pub use text::{CoordinateText, LawText, Layout};
 

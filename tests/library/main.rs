@@ -20,6 +20,7 @@ mod dialects;
 mod dice;
 mod diff;
 mod editing;
+mod engine_loops;
 mod engines;
 mod events;
 mod exact_curve;

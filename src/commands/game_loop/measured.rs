@@ -96,7 +96,7 @@ fn row(trace: &str, card: &PolicyCard, run: &LoopRun, record: &FrameRecord) -> [
         json!(ms(frame.began_ns)),
         json!(frame.displayed_ns.map(ms)),
         json!(shown_ms),
-        json!(steps.count),
+        json!(steps.returned.unwrap_or(steps.count)),
         json!(dropped_ms),
         json!(run.lane().drawn_coordinates(0)[0]),
         json!(step_ms),

@@ -44,6 +44,7 @@ impl Policy for Fixed {
             count: due.ticks,
             span: i128::from(due.ticks) * self.tick,
             dropped: i128::from(due.dropped) * self.tick,
+            returned: None,
         }
     }
 
@@ -79,7 +80,7 @@ impl Policy for SlowDown {
         let left = self.owed - span;
         // If no time were kept, each frame that timer noise lengthens would lose a tick.
         self.owed = left.min(self.tick);
-        Steps { count: count as u32, span, dropped: left - self.owed }
+        Steps { count: count as u32, span, dropped: left - self.owed, returned: None }
     }
 
     fn owed(&self) -> i128 {

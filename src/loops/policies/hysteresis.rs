@@ -63,7 +63,12 @@ impl Policy for Hysteresis {
         self.owed -= due * self.tick;
         let ticks = due.min(self.max_ticks.into());
         self.remember(ticks);
-        Steps { count: ticks as u32, span: ticks * self.tick, dropped: (due - ticks) * self.tick }
+        Steps {
+            count: ticks as u32,
+            span: ticks * self.tick,
+            dropped: (due - ticks) * self.tick,
+            returned: None,
+        }
     }
 
     fn owed(&self) -> i128 {

@@ -218,6 +218,8 @@ pub(super) struct Cells<'a> {
     pub(super) swap_chain: &'a str,
     /// Direction in which the two times below count.
     pub(super) span: Span,
+    /// The same time in milliseconds, never rounded.
+    pub(super) began_ms: Option<f64>,
     /// Time between the beginnings of two frames, in nanoseconds. A missing time is an error only where it is needed.
     pub(super) began_ns: Result<i64, Fault>,
     /// Time between the displays of two frames, or from the frame's beginning to its display, in nanoseconds; `None` if
@@ -457,7 +459,12 @@ impl Columns {
     }
 
     /// Reads a row whose times are in this unit.
-    pub(super) fn read<'a>(&self, row: &'a StringRecord, unit: Unit) -> Result<Cells<'a>, Fault> {
+    pub(super) fn read<'a>(
+        &self,
+        row: &'a StringRecord,
+        unit: Unit,
+        is_signed: bool,
+    ) -> Result<Cells<'a>, Fault> {
         let (cells, header) = (row.len(), self.needed());
         if cells < header {
             return Err(Fault::FewCells { cells, header });
@@ -467,7 +474,7 @@ impl Columns {
         let moment = if self.is_clock { self.began.moment(row)? } else { None };
         let began_ns = match self.is_clock {
             true => moment.map(|_| 0),
-            false => self.began.time(row, unit)?,
+            false => self.began.time(row, unit, is_signed)?,
         };
         let displayed_ns = match &self.displayed {
             Some(column) if self.is_clock => {
@@ -475,7 +482,7 @@ impl Columns {
                     column.moment(row)?.zip(moment).map(|(shown, began)| shown.since(began));
                 until.map(|until| (until * unit.ns()).round() as i64).filter(|until| *until >= 0)
             }
-            Some(column) => column.time(row, unit)?,
+            Some(column) => column.time(row, unit, false)?,
             None => began_ns,
         };
         let frame_type = text(self.frame_type);
@@ -488,6 +495,12 @@ impl Columns {
             process: text(self.process),
             swap_chain: text(self.swap_chain),
             span: self.span,
+            began_ms: number(Some(self.began.index)).filter(|_| !self.is_clock).map(|time| {
+                match unit {
+                    Unit::Milliseconds => time,
+                    _ => time * unit.ns() / Unit::Milliseconds.ns(),
+                }
+            }),
             began_ns: began_ns.ok_or_else(|| Fault::NoTime { column: self.began.name.clone() }),
             is_until: self.is_until,
             fps: number(self.fps),
@@ -502,8 +515,8 @@ impl Columns {
 }
 
 impl Column {
-    fn time(&self, row: &StringRecord, unit: Unit) -> Result<Option<i64>, Fault> {
-        durations::nanoseconds(&row[self.index], unit)
+    fn time(&self, row: &StringRecord, unit: Unit, is_signed: bool) -> Result<Option<i64>, Fault> {
+        durations::nanoseconds(&row[self.index], unit, is_signed)
             .map_err(|fault| Fault::Cell { column: self.name.clone(), fault })
     }
 

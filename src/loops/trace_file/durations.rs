@@ -27,8 +27,12 @@ pub(super) enum Unreadable {
 }
 
 /// Converts a decimal number in this unit to nanoseconds, rounding its digits once; `None` if the log marks the number
-/// as missing. The decimal sign may be a comma.
-pub(super) fn nanoseconds(cell: &str, unit: Unit) -> Result<Option<i64>, Unreadable> {
+/// as missing. The decimal sign may be a comma. Only signed times may be negative.
+pub(super) fn nanoseconds(
+    cell: &str,
+    unit: Unit,
+    is_signed: bool,
+) -> Result<Option<i64>, Unreadable> {
     let cell = cell.trim();
     if is_missing(cell) {
         return Ok(None);
@@ -39,9 +43,9 @@ pub(super) fn nanoseconds(cell: &str, unit: Unit) -> Result<Option<i64>, Unreada
     };
     let ns = unsigned(number, places(unit)).ok_or_else(|| Unreadable::NotANumber(clip(cell)))?;
     match ns {
-        1.. if negative => Err(Unreadable::Negative(clip(cell))),
+        1.. if negative && !is_signed => Err(Unreadable::Negative(clip(cell))),
         DAY_NS.. => Err(Unreadable::TooLong(clip(cell))),
-        _ => Ok(Some(ns)),
+        _ => Ok(Some(if negative { -ns } else { ns })),
     }
 }
 
@@ -94,10 +98,10 @@ mod tests {
             ("-0.0", 0),
             ("86399999.999999", DAY_NS - 1),
         ] {
-            assert_eq!(nanoseconds(cell, Unit::Milliseconds), Ok(Some(ns)), "{cell}");
+            assert_eq!(nanoseconds(cell, Unit::Milliseconds, false), Ok(Some(ns)), "{cell}");
         }
         for cell in ["NA", "na", "", "  ", "N/A"] {
-            assert_eq!(nanoseconds(cell, Unit::Milliseconds), Ok(None), "{cell}");
+            assert_eq!(nanoseconds(cell, Unit::Milliseconds, false), Ok(None), "{cell}");
         }
     }
 
@@ -108,7 +112,7 @@ mod tests {
             ("16.6667", Unit::Milliseconds),
             ("16666.7", Unit::Microseconds),
         ] {
-            assert_eq!(nanoseconds(cell, unit), Ok(Some(16_666_700)), "{cell}");
+            assert_eq!(nanoseconds(cell, unit, false), Ok(Some(16_666_700)), "{cell}");
         }
     }
 
@@ -118,18 +122,18 @@ mod tests {
             ["nan", "inf", "-inf", ".", "-", "1.2.3", "1,234.5", "16 ms", "0x10", "1e", "1e999"]
         {
             assert_eq!(
-                nanoseconds(cell, Unit::Milliseconds),
+                nanoseconds(cell, Unit::Milliseconds, false),
                 Err(Unreadable::NotANumber(cell.into())),
                 "{cell}"
             );
         }
         assert_eq!(
-            nanoseconds("-16.7", Unit::Milliseconds),
+            nanoseconds("-16.7", Unit::Milliseconds, false),
             Err(Unreadable::Negative("-16.7".into()))
         );
         for cell in ["86400000", "1e99", "99999999999999999999999999"] {
             assert_eq!(
-                nanoseconds(cell, Unit::Milliseconds),
+                nanoseconds(cell, Unit::Milliseconds, false),
                 Err(Unreadable::TooLong(cell.into())),
                 "{cell}"
             );

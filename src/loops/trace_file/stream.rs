@@ -14,6 +14,8 @@ pub(super) struct Stream {
     /// Line number of the stream's first row.
     line: u64,
     frames: Vec<Frame>,
+    /// Duration of each frame before it began, in milliseconds and never rounded.
+    exact_ms: Vec<f64>,
     /// Time when the last displayed frame appeared, in nanoseconds.
     last_shown_ns: Option<i64>,
     /// Times when the next frame begins and appears, in logs whose rows record how long their own frame lasted and
@@ -43,6 +45,7 @@ impl Stream {
             process: printable(first.process),
             line,
             frames: Vec::new(),
+            exact_ms: Vec::new(),
             last_shown_ns: None,
             next_began_ns: Ok(0),
             next_shown_ns: 0,
@@ -105,6 +108,9 @@ impl Stream {
                 *ends = Some([first, (frame, beside)]);
             }
         }
+        let before_ns = self.frames.last().map_or(0, |last| last.began_ns);
+        let rounded_ms = (frame.began_ns - before_ns) as f64 / 1e6;
+        self.exact_ms.push(cells.began_ms.unwrap_or(rounded_ms));
         self.frames.push(frame);
         self.generated_ns = 0;
         Ok(())
@@ -201,9 +207,9 @@ impl Stream {
         }
     }
 
-    /// Returns the duration of the first frame before it began, in nanoseconds.
-    pub(super) fn lead_ns(&self) -> i64 {
-        self.lead_ns
+    /// Returns the duration of the first frame before it began, in nanoseconds, and those of all frames in milliseconds.
+    pub(super) fn counted(&self) -> (i64, Vec<f64>) {
+        (self.lead_ns, self.exact_ms.clone())
     }
 }
 

@@ -92,6 +92,10 @@ pub(super) trait Scope {
     fn own_function(&self, _name: &str) -> Option<(usize, Vec<bool>)> {
         None
     }
+    /// Returns the index of an array of the text.
+    fn array(&self, _name: &str) -> Option<usize> {
+        None
+    }
     /// Whether a call of this name is a call of the acceleration.
     fn is_acceleration(&self, _name: &str) -> bool {
         false
@@ -401,6 +405,15 @@ impl Parser<'_> {
         }
         if is_call && let Some((index, inputs)) = self.scope.own_function(&name) {
             return self.apply(span, index, &inputs);
+        }
+        if let Some(array) = self.scope.array(&name) {
+            self.expect("[", "the name of an array")?;
+            let index = self.nested(Self::any)?;
+            let index = self.want_number(index)?;
+            self.expect("]", "the index")?;
+            let node = self.push(Op::Element, &[index], span);
+            self.expression.nodes[node].index = array;
+            return Ok(node);
         }
         let function = self.scope.function(&name);
         if let Some(function) = function.filter(|_| is_call || self.scope.input(&name).is_none()) {

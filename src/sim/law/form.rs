@@ -48,6 +48,7 @@ pub(super) fn is_linear(
             | Op::Smooth(_)
             | Op::Call
             | Op::Apply
+            | Op::Element
             | Op::Argument
             | Op::Switch(_) => match operands.iter().map(|&slot| of[slot as usize]).max() {
                 None | Some(Dependence::Constant) => Dependence::Constant,

@@ -23,6 +23,8 @@ pub(super) enum Op {
     Switch(Switch),
     /// A call of the acceleration by a step, at a position with a velocity. A third operand guards the call.
     Call,
+    /// A number of an array of the lines, at the index of its operand.
+    Element,
     /// A call of a function of the lines, whose operand is its last argument.
     Apply,
     /// An argument of such a call, after the argument before.
@@ -46,7 +48,7 @@ impl Op {
             Op::If => c,
             Op::Smooth(smooth) => (smooth.value)(a, b),
             Op::Switch(switch) => switch.value(a, b, table),
-            Op::Number | Op::Input | Op::Call | Op::Apply | Op::Argument => 0.0,
+            Op::Number | Op::Input | Op::Call | Op::Apply | Op::Argument | Op::Element => 0.0,
         }
     }
 
@@ -56,7 +58,7 @@ impl Op {
             Op::And | Op::Or | Op::Not => true,
             Op::Switch(switch) => switch.is_truth(),
             Op::Number | Op::Input | Op::Negate | Op::If | Op::Smooth(_) | Op::Call => false,
-            Op::Apply | Op::Argument => false,
+            Op::Apply | Op::Argument | Op::Element => false,
             Op::Add | Op::Subtract | Op::Multiply | Op::Divide | Op::Power => false,
         }
     }

@@ -12,10 +12,11 @@ use super::fault::{ExpressionFault, fault};
 use super::form::is_linear;
 pub(crate) use super::tape::SwitchKind;
 use super::tape::Tape;
+pub use frames::{FrameInput, FrameOutput, LoopText};
 pub(crate) use linear::{AT_TARGET, Frame, NO_RETURN, remembers_place};
 pub use linear::{LinearRule, RuleBody};
 pub use map::StepMap;
-use method::{Function, Machine, Taken};
+use method::{Array, Function, Machine, Taken};
 pub use method::{General, Input, Request, StepCall};
 use paths::of_one_component;
 use plain::plain;
@@ -26,6 +27,7 @@ use statements::statements;
 pub use tree::MethodInput;
 pub(crate) use tree::{Operation, StepBody, bracketed};
 
+mod frames;
 mod linear;
 mod map;
 mod method;
@@ -96,6 +98,12 @@ pub(crate) enum Line {
     While(Expression),
     End,
     Return(Expression),
+    /// `array[index] = value`.
+    Store {
+        array: usize,
+        index: Expression,
+        value: Expression,
+    },
     /// Ends the step. If it fails, `x` and `v` become NaN.
     Stop {
         fails: bool,
@@ -138,6 +146,7 @@ pub struct StepText {
     /// The inputs that the text takes besides the acceleration and the target.
     inputs: Vec<Taken>,
     functions: Vec<Function>,
+    arrays: Vec<Array>,
     /// The remarks above the inputs.
     notes: Vec<String>,
     /// Whether a step depends on the velocity before it.
@@ -183,12 +192,17 @@ impl StepText {
     /// # Errors
     /// The first fault, with its byte range in the text.
     pub fn read(text: &str) -> Result<Self, ExpressionFault> {
+        Self::check_size(text)?;
+        Self::read_lines(text, None)
+    }
+
+    fn check_size(text: &str) -> Result<(), ExpressionFault> {
         if text.len() > MAX_STEP_BYTES {
             let end = text.floor_char_boundary(MAX_STEP_BYTES);
             let what = format!("the text has {} bytes", text.len());
             return fault(end..text.len(), what, format!("keep at most {MAX_STEP_BYTES}"));
         }
-        Self::read_lines(text, None)
+        Ok(())
     }
 
     /// Reads the lines of a printer, of which a rule may have loops.

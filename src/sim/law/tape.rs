@@ -331,7 +331,9 @@ impl Tape {
                     from_fn(|i| switched(switch, a[i], b[i], table))
                 }
                 // A tape has no calls, and its caller writes these slots.
-                Op::Number | Op::Input | Op::Call | Op::Apply | Op::Argument => slots[to],
+                Op::Number | Op::Input | Op::Call | Op::Apply | Op::Argument | Op::Element => {
+                    slots[to]
+                }
             };
             slots[to] = value;
         }
@@ -341,7 +343,7 @@ impl Tape {
 fn jet(op: Op, [a, b, c]: [Jet; 3], table: Option<&Curve>) -> Jet {
     match op {
         // These values are in their slots already, and a tape has no calls.
-        Op::Number | Op::Input | Op::Call | Op::Apply | Op::Argument => a,
+        Op::Number | Op::Input | Op::Call | Op::Apply | Op::Argument | Op::Element => a,
         Op::Negate => a.map(|x| -x),
         Op::Add => jet::sum(a, b),
         Op::Subtract => jet::difference(a, b),

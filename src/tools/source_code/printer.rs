@@ -418,6 +418,8 @@ impl Printer {
         for (n, line) in lines.iter().enumerate() {
             let is_block_end = matches!(lines.get(n + 1), Some(Line::End | Line::Else));
             match line {
+                // Only loops have arrays, which no other language has yet.
+                Line::Store { .. } => {}
                 Line::Blank => self.push_lines(&[""]),
                 Line::Remark(text) => self.print_comment(text),
                 Line::Assign { name, joins, value, .. } => {

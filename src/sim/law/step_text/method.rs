@@ -113,6 +113,14 @@ pub(super) struct Function {
     pub(super) general: Option<General>,
 }
 
+/// An array of numbers that the lines carry from one frame to the next.
+#[derive(Debug)]
+pub(super) struct Array {
+    pub(super) name: String,
+    pub(super) size: usize,
+    pub(super) start: f64,
+}
+
 /// A call of the acceleration.
 #[derive(Clone, Copy, Debug)]
 pub struct StepCall {
@@ -138,6 +146,18 @@ enum Act {
         time: usize,
         to: usize,
         index: usize,
+    },
+    /// Copies the number of an array at an index, or NaN if it has none there.
+    Load {
+        to: usize,
+        array: usize,
+        index: usize,
+    },
+    /// Copies a slot to the number of an array at an index, if it has one there.
+    Store {
+        array: usize,
+        index: usize,
+        from: usize,
     },
     /// Copies a slot, for the coordinates that run the block.
     Set {
@@ -171,6 +191,8 @@ pub(super) struct Machine {
     levels: usize,
     calls: Vec<StepCall>,
     generals: Vec<General>,
+    /// The first slot and the number of slots of each array.
+    arrays: Vec<[usize; 2]>,
 }
 
 /// A step in progress.
@@ -217,6 +239,20 @@ impl<F: FnMut(f64, Request<'_>, [&[f64]; 2], &mut [f64])> Run<'_, F> {
                     for i in 0..size {
                         let operands = from.map(|slot| self.slots[slot * size + i]);
                         self.slots[to * size + i] = op.value(operands, table);
+                    }
+                }
+                Act::Load { to, array, index } => {
+                    for i in 0..size {
+                        let found = self.element(*array, *index, i);
+                        self.slots[to * size + i] = found.map_or(f64::NAN, |at| self.slots[at]);
+                    }
+                }
+                Act::Store { array, index, from } => {
+                    for i in 0..size {
+                        let found = self.element(*array, *index, i);
+                        if let Some(at) = found.filter(|_| self.masks[level * size + i]) {
+                            self.slots[at] = self.slots[from * size + i];
+                        }
                     }
                 }
                 Act::Set { to, from } => {
@@ -272,6 +308,14 @@ impl<F: FnMut(f64, Request<'_>, [&[f64]; 2], &mut [f64])> Run<'_, F> {
                 }
             }
         }
+    }
+
+    /// Returns the place of a coordinate's number of an array, at the index in a slot.
+    fn element(&self, array: usize, index: usize, i: usize) -> Option<usize> {
+        let [start, size] = self.machine.arrays[array];
+        let index = self.slots[index * self.size + i].floor();
+        let is_there = (0.0..size as f64).contains(&index);
+        is_there.then(|| (start + index as usize) * self.size + i)
     }
 
     fn call(
@@ -375,6 +419,9 @@ impl StepText {
         };
         for (slot, number) in &self.machine.numbers {
             registers.slots[slot * coordinates..][..coordinates].fill(*number);
+        }
+        for ([first, size], array) in self.machine.arrays.iter().zip(&self.arrays) {
+            registers.slots[first * coordinates..][..size * coordinates].fill(array.start);
         }
         self.forget(&mut registers);
         registers

@@ -4,7 +4,8 @@ use std::ops::Range;
 
 use functions::end_of;
 
-use super::method::{Function as OwnFunction, Machine, Taken};
+use super::frames::FRAME_NAMES;
+use super::method::{Array, Function as OwnFunction, Machine, Taken};
 use super::paths::{SMOOTH_DAMP, damped_velocity};
 use super::statements::Statement;
 use super::{BUILT_IN, Carried, H, Line, OTHER_NAMES, STEP_NAMES, StepText, TARGET, V, X};
@@ -16,6 +17,7 @@ use crate::sim::law::tape::{MAX_OPERATIONS, MAX_SWITCHES, Tape};
 use crate::sim::law::token::is_name_part;
 
 mod assignment;
+mod frames;
 mod functions;
 mod values;
 
@@ -71,6 +73,9 @@ pub(super) struct Reader<'t> {
     /// Whether a line of the step itself was read.
     has_begun: bool,
     reads_velocity: bool,
+    /// Whether the lines are those of a game loop, and its arrays.
+    is_loop: bool,
+    arrays: Vec<Array>,
     /// Whether the value of `SmoothDamp` is the velocity that it leaves.
     damps_velocity: bool,
 }
@@ -106,7 +111,7 @@ impl Scope for Reader<'_> {
     }
 
     fn names(&self) -> Vec<String> {
-        self.names.clone()
+        self.names.iter().filter(|name| !name.contains(' ')).cloned().collect()
     }
 
     fn why_not(&self, name: &str) -> Option<String> {
@@ -127,8 +132,12 @@ impl Scope for Reader<'_> {
         Some((index, self.functions[index].inputs.clone()))
     }
 
+    fn array(&self, name: &str) -> Option<usize> {
+        self.arrays.iter().position(|array| array.name == name)
+    }
+
     fn is_acceleration(&self, name: &str) -> bool {
-        ACCELERATION.contains(&name)
+        !self.is_loop && ACCELERATION.contains(&name)
     }
 
     fn function(&self, name: &str) -> Option<&'static Function> {
@@ -168,6 +177,19 @@ impl<'t> Reader<'t> {
         reader.finish()
     }
 
+    /// Reads the lines of a game loop.
+    pub(super) fn read_loop(text: &'t str, all: &[Statement]) -> Parsed<StepText> {
+        let mut reader = Self::new(text, Some(0..0), Vec::new());
+        reader.is_loop = true;
+        for name in FRAME_NAMES {
+            reader.add_name(name, true);
+        }
+        reader.values.fill(Some(0));
+        reader.carried = vec![X, V];
+        reader.read_all(all)?;
+        reader.finish()
+    }
+
     fn new(text: &'t str, method_at: Option<Range<usize>>, functions: Vec<OwnFunction>) -> Self {
         Reader {
             text,
@@ -188,6 +210,8 @@ impl<'t> Reader<'t> {
             remarks: Vec::new(),
             has_begun: false,
             reads_velocity: false,
+            is_loop: false,
+            arrays: Vec::new(),
             damps_velocity: false,
         }
     }
@@ -208,6 +232,9 @@ impl<'t> Reader<'t> {
                     }
                 }
                 Statement::Memory { name, .. } => self.declare(name.clone(), true, true)?,
+                Statement::Array { name, size, value } => {
+                    self.add_array(name.clone(), size.clone(), value.clone())?;
+                }
                 Statement::Function { .. } => at = end_of(all, at),
                 _ => {}
             }
@@ -233,11 +260,12 @@ impl<'t> Reader<'t> {
 
     /// Whether the lines may read an input that has a value.
     fn may_read(&self, index: usize) -> bool {
-        self.is_function || index != TARGET || !self.is_method() || self.takes_target
+        let is_free = self.is_function || self.is_loop || !self.is_method();
+        is_free || index != TARGET || self.takes_target
     }
 
     fn index(&self, name: &str) -> Option<usize> {
-        if self.is_function {
+        if self.is_function || self.is_loop {
             return self.names.iter().position(|known| known == name);
         }
         if STEP_NAMES.contains(&name) {
@@ -266,6 +294,10 @@ impl<'t> Reader<'t> {
             return fault(span, what, "give it another name");
         }
         match self.index(name) {
+            Some(index) if self.is_loop && index < FRAME_NAMES.len() => {
+                let what = format!("`{name}` is told to the loop, and no line may change it");
+                return fault(span, what, "give the number another name");
+            }
             Some(TARGET) if !self.is_function => {
                 let remedy = "give the number another name, such as `goal`";
                 return fault(
@@ -377,6 +409,33 @@ impl<'t> Reader<'t> {
                 self.lines.push(Line::Stop { fails });
                 Ok(())
             }
+            Statement::Array { .. } => Ok(()),
+            Statement::Store { name, index, value } => {
+                let word = &self.text[name.clone()];
+                let Some(array) = self.array(word) else {
+                    let what = format!("`{}` is no array", quoted(word));
+                    return fault(name, what, "a loop declares one: `memory past[10] = 0`");
+                };
+                let index = self.expression(index, false)?;
+                let value = self.expression(value, false)?;
+                self.note_reads(&index);
+                self.note_reads(&value);
+                self.lines.push(Line::Store { array, index, value });
+                Ok(())
+            }
+            Statement::Tick { word, count, length } => {
+                self.expect_loop(&word)?;
+                let count = self.expression(count, false)?;
+                let length = length.map(|length| self.expression(length, false)).transpose()?;
+                self.tick(count, length);
+                Ok(())
+            }
+            Statement::Show { word, value } => {
+                self.expect_loop(&word)?;
+                let value = self.expression(value, false)?;
+                self.show(value);
+                Ok(())
+            }
             Statement::Takes(_) | Statement::Function { .. } => Ok(()),
             Statement::Use(name) => self.use_shared(name),
             Statement::Else(condition, brace) => {
@@ -413,7 +472,11 @@ impl<'t> Reader<'t> {
         let in_text = |found: ExpressionFault| {
             let at = found.span.start + span.start..found.span.end + span.start;
             let is_call = self.text[at.end..].trim_start().starts_with('(');
-            let known = if self.is_method() { "x, v or h" } else { "x, v, h or target" };
+            let known = match (self.is_loop, self.is_method()) {
+                (true, _) => "dt, H, refresh, cost, now or first",
+                (false, true) => "x, v or h",
+                (false, false) => "x, v, h or target",
+            };
             let remedy = match found.remedy {
                 Remedy::Name { written, .. } if !is_call => Remedy::Words(format!(
                     "write {known}, or give it a value before: `let {} = 1`",
@@ -492,6 +555,9 @@ impl<'t> Reader<'t> {
         let last = 0..self.text.len();
         let assigns = |line: &Line| matches!(line, Line::Assign { name: X | V, .. });
         if !self.lines.iter().any(assigns) {
+            if self.is_loop {
+                return fault(last, "no line makes a tick", "write `tick 1`, or `tick 1 of dt`");
+            }
             let remedy = "write `x` for the position and `v` for its velocity: `x += v * dt`";
             return fault(last, "no line assigns `x` or `v`", remedy);
         }
@@ -515,7 +581,7 @@ impl<'t> Reader<'t> {
         })?;
         let machine = match is_rule {
             true => Some(Machine::default()),
-            false => Machine::new(self.names.len(), &self.lines, &self.functions),
+            false => Machine::new(self.names.len(), &self.lines, &self.functions, &self.arrays),
         };
         let machine = machine.map_or_else(|| too_long(last, "operations", MAX_OPERATIONS), Ok)?;
         let named = |input: usize| Carried {
@@ -524,7 +590,8 @@ impl<'t> Reader<'t> {
             input,
         };
         let carried = carried.into_iter().map(named).collect();
-        let Reader { names, lines, method_at, inputs, functions, notes, reads_velocity, .. } = self;
+        let Reader { names, lines, method_at, inputs, functions, arrays, .. } = self;
+        let Reader { notes, reads_velocity, .. } = self;
         Ok(StepText {
             source: String::new(),
             names,
@@ -534,6 +601,7 @@ impl<'t> Reader<'t> {
             method_at,
             inputs,
             functions,
+            arrays,
             notes,
             reads_velocity,
             machine,

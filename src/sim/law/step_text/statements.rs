@@ -17,6 +17,14 @@ pub(super) enum Statement {
     },
     /// `memory name = value`.
     Memory { name: Range<usize>, value: Range<usize> },
+    /// `memory name[size] = value`.
+    Array { name: Range<usize>, size: Range<usize>, value: Range<usize> },
+    /// `name[index] = value`.
+    Store { name: Range<usize>, index: Range<usize>, value: Range<usize> },
+    /// `tick count` or `tick count of length`.
+    Tick { word: Range<usize>, count: Range<usize>, length: Option<Range<usize>> },
+    /// `show value`.
+    Show { word: Range<usize>, value: Range<usize> },
     /// `if condition {`.
     If(Range<usize>),
     /// `} else {`, and the condition in `} else if condition {`.
@@ -214,6 +222,7 @@ impl Reader<'_> {
                 self.at = named.end;
                 Ok(Some(if is_input { Statement::Takes(named) } else { Statement::Use(named) }))
             }
+            (_, "tick" | "show") if self.is_followed_by_value() => Ok(Some(self.frame_word())),
             (_, "else") => fault(
                 self.name(),
                 "`else` follows no block",
@@ -231,6 +240,30 @@ impl Reader<'_> {
     fn is_followed_by_name(&self) -> bool {
         let after = self.text[self.name().end..].trim_start_matches([' ', '\t']);
         after.starts_with(is_name_start)
+    }
+
+    /// Whether a value follows the next name on its line, as in `tick 2`.
+    fn is_followed_by_value(&self) -> bool {
+        let after = &self.text[self.name().end..];
+        let value = after.trim_start_matches([' ', '\t']);
+        let is_assigned = ASSIGNMENTS.iter().any(|(sign, _)| value.starts_with(sign));
+        value.len() < after.len() && !is_assigned && !value.starts_with(['\n', ';', '}'])
+    }
+
+    /// Reads `tick count of length`, or `show value`.
+    fn frame_word(&mut self) -> Statement {
+        let word = self.name();
+        self.at = word.end;
+        let value = self.at..self.end();
+        self.at = value.end;
+        if &self.text[word.clone()] == "show" {
+            return Statement::Show { word, value };
+        }
+        let text = &self.text[value.clone()];
+        let of = (0..text.len()).find(|at| begins_word(text, *at, &["of"]));
+        let length = of.map(|of| value.start + of + "of".len()..value.end);
+        let count = value.start..of.map_or(value.end, |of| value.start + of);
+        Statement::Tick { word, count, length }
     }
 
     /// Reads the first line of a function.
@@ -340,6 +373,15 @@ impl Reader<'_> {
             self.at = self.name().end;
             self.skip(|c| c == ' ' || c == '\t');
         }
+        let mut index = None;
+        if self.rest().starts_with('[') {
+            let length = self.rest().find([']', '\n', ';', '=']).unwrap_or(0);
+            if self.rest()[length..].starts_with(']') {
+                index = Some(self.at + 1..self.at + length);
+                self.at += length + 1;
+                self.skip(|c| c == ' ' || c == '\t');
+            }
+        }
         let written = quoted(&self.text[name.clone()]);
         let operator = ASSIGNMENTS.iter().find(|(sign, _)| self.rest().starts_with(sign));
         let Some((sign, joins)) = operator.filter(|_| !self.rest().starts_with("==")) else {
@@ -367,6 +409,16 @@ impl Reader<'_> {
         if self.rest().starts_with('{') {
             let brace = self.at..self.at + 1;
             return fault(brace, "`{` opens no block here", "write `if condition {`, or remove it");
+        }
+        if let Some(index) = index {
+            if !joins.is_empty() {
+                let remedy = "write `=`, and the number before it in the value";
+                return fault(whole(self), "a number of an array is not joined", remedy);
+            }
+            return Ok(match is_memory && declares.is_some() {
+                true => Statement::Array { name, size: index, value },
+                false => Statement::Store { name, index, value },
+            });
         }
         Ok(match is_memory && declares.is_some() {
             true if joins.is_empty() => Statement::Memory { name, value },
@@ -403,6 +455,16 @@ mod tests {
                 format!("{declared}{} {joins}= {}", of(name), of(value))
             }
             Statement::Memory { name, value } => format!("memory {} = {}", of(name), of(value)),
+            Statement::Array { name, size, value } => {
+                format!("memory {}[{}] = {}", of(name), of(size), of(value))
+            }
+            Statement::Store { name, index, value } => {
+                format!("{}[{}] = {}", of(name), of(index), of(value))
+            }
+            Statement::Tick { count, length, .. } => {
+                format!("tick {} of {}", of(count), length.map_or("H".into(), of))
+            }
+            Statement::Show { value, .. } => format!("show {}", of(value)),
             Statement::If(condition) => format!("if {}", of(condition)),
             Statement::While(_, condition) => format!("while {}", of(condition)),
             Statement::Takes(input) => format!("takes {}", of(input)),
@@ -446,6 +508,11 @@ mod tests {
         assert_eq!(read(text)[..6], found);
         assert_eq!(read(text)[6..], ["return a(x,\n 1)", "end", "fail"]);
         assert_eq!(read(" \n;"), [""; 0]);
+        let text =
+            "memory past[4] = 0; past[i + 1] = past[i]; tick floor(n) of dt\ntick 1; show owed / H";
+        let found = ["memory past[4] = 0", "past[i + 1] = past[i]", "tick floor(n) of dt"];
+        assert_eq!(read(text)[..3], found);
+        assert_eq!(read(text)[3..], ["tick 1 of H", "show owed / H"]);
         let text = "// One.\n\n\nx += v # two\n  #three\nv *= 2 /* four */\n# five\n";
         let found = ["# One.", "", "x += v", "# three", "v *= 2", "# five"];
         assert_eq!(read(text), found);

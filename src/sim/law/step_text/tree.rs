@@ -138,6 +138,9 @@ impl StepText {
         values.find_map(|expression| {
             let mut sizes: Vec<usize> = Vec::with_capacity(expression.nodes.len());
             for node in &expression.nodes {
+                if node.op == Op::Element {
+                    return Some("arrays have no words there yet");
+                }
                 if node.op == Op::If || node.op.is_table() {
                     return Some(
                         "`if(…)` and `table(…)` have no words there; write blocks of `if`",
@@ -163,6 +166,7 @@ impl Line {
             Line::Assign { value, .. }
             | Line::If(value)
             | Line::While(value)
+            | Line::Store { value, .. }
             | Line::Return(value) => Some(value),
             Line::Else | Line::End | Line::Stop { .. } | Line::Remark(_) | Line::Blank => None,
         }

@@ -2,7 +2,7 @@
 
 use std::slice::Iter;
 
-use super::{Act, Function, General, Machine, StepCall};
+use super::{Act, Array, Function, General, Machine, StepCall};
 use crate::sim::law::expression::Expression;
 use crate::sim::law::op::Op;
 use crate::sim::law::step_text::{Line, V, X};
@@ -14,12 +14,18 @@ impl Machine {
         names: usize,
         lines: &[Line],
         functions: &[Function],
+        arrays: &[Array],
     ) -> Option<Self> {
         let machine = Self { slots: names, levels: 1, ..Self::default() };
         let mut compiler = Compiler { machine, functions, level: 0, repeats: 0 };
         let slots: Vec<usize> = (0..names).collect();
         let (acts, _) = compiler.block(&mut lines.iter(), &slots, X)?;
-        Some(Self { acts, ..compiler.machine })
+        let mut machine = compiler.machine;
+        for array in arrays {
+            machine.arrays.push([machine.slots, array.size]);
+            machine.slots += array.size;
+        }
+        Some(Self { acts, ..machine })
     }
 }
 
@@ -105,6 +111,11 @@ impl Compiler<'_> {
                     acts.push(Act::While { test, condition, body });
                 }
                 Line::Remark(_) | Line::Blank => {}
+                Line::Store { array, index, value } => {
+                    let index = self.expression(index, slots, &mut acts)?;
+                    let from = self.expression(value, slots, &mut acts)?;
+                    acts.push(Act::Store { array: *array, index, from });
+                }
                 Line::Return(value) => {
                     let from = self.expression(value, slots, &mut acts)?;
                     acts.extend([Act::Set { to: result, from }, Act::Leave]);
@@ -142,6 +153,11 @@ impl Compiler<'_> {
                 Op::Call => {
                     let time = if node.arguments().len() > 2 { from[2] } else { from[0] };
                     self.call(None, from[..2].to_vec(), time, acts)
+                }
+                Op::Element => {
+                    let to = self.slot();
+                    acts.push(Act::Load { to, array: node.index, index: from[0] });
+                    to
                 }
                 Op::Apply => {
                     let mut arguments = Vec::new();

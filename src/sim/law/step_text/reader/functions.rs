@@ -14,7 +14,9 @@ use crate::sim::law::token::is_name_part;
 const MAX_FUNCTIONS: usize = 16;
 
 /// The functions that a text may `use`.
-const SHARED_STEPS: [(&str, &str); 4] = [
+const SHARED_STEPS: [(&str, &str); 6] = [
+    ("remainder", include_str!("../../../../../assets/loops/shared/remainder.loop")),
+    ("single", include_str!("../../../../../assets/loops/shared/single.loop")),
     ("slope", include_str!("../../../../../assets/methods/shared/slope.step")),
     ("solve", include_str!("../../../../../assets/methods/shared/solve.step")),
     ("steady", include_str!("../../../../../assets/methods/shared/steady.step")),

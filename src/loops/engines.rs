@@ -1,0 +1,149 @@
+//! The loops of engines and libraries by name, and loops of a person's own, each a file of lines.
+
+use std::sync::LazyLock;
+
+use super::policy::{Build, Engine, PolicyCard};
+use crate::run::race::Interpolation;
+use crate::sim::law::{ExpressionFault, LoopText};
+
+/// Lists the engines, each with its file in `assets/loops/engines`.
+macro_rules! engines {
+    ($($id:literal),+ $(,)?) => {
+        [$(($id, include_str!(concat!("../../assets/loops/engines/", $id, ".loop")))),+]
+    };
+}
+
+/// Every engine and library whose loop is known, with its lines.
+pub static ENGINES: LazyLock<Vec<PolicyCard>> = LazyLock::new(|| {
+    let files = engines![
+        "arcade",
+        "babylon-lockstep",
+        "bevy",
+        "cannon-es",
+        "colyseus-timer",
+        "excalibur",
+        "excalibur-max60",
+        "fixedstep",
+        "framesync",
+        "godot",
+        "gsap",
+        "gsap-fps60",
+        "kaplay-fixed",
+        "kivy-interval",
+        "kontra",
+        "littlejs",
+        "love",
+        "mainloop-js",
+        "matter-runner",
+        "melonjs",
+        "p2-es",
+        "panda3d-bullet",
+        "phaser",
+        "phaser-arcade",
+        "phaser-arcade-limit60",
+        "phaser-limit60",
+        "pixi",
+        "pixi-max60",
+        "playcanvas",
+        "pygame-tick",
+        "pyglet-interval",
+        "r3-rapier",
+        "three-timer",
+        "unity",
+        "unreal",
+    ];
+    files
+        .into_iter()
+        .map(|(id, text)| card(id, text).expect("a file that the tests read"))
+        .collect()
+});
+
+/// Returns the card of lines under an id. A remark `# key: value` in the text gives its name, version and advice.
+///
+/// # Errors
+/// The first fault of the lines.
+fn card(id: &'static str, text: &'static str) -> Result<PolicyCard, ExpressionFault> {
+    let lines = LoopText::read(text)?;
+    let (shows, has_fixed_tick) = (lines.shows(), lines.has_fixed_tick());
+    let claim = |key: &str| {
+        let mut remarks = text.lines().filter_map(|line| line.strip_prefix("# "));
+        remarks.find_map(|remark| remark.strip_prefix(key)?.strip_prefix(": ")).unwrap_or_default()
+    };
+    let constants = LoopText::constants(text).into_iter();
+    let is_sign = |c: char| c.is_ascii_digit() || " .-*/".contains(c);
+    let settings = constants.filter(|(_, _, value)| value.chars().all(is_sign));
+    let settings: Vec<String> =
+        settings.map(|(name, _, value)| format!("{name}={value}")).collect();
+    let name = Some(claim("name")).filter(|name| !name.is_empty()).unwrap_or(id);
+    Ok(PolicyCard {
+        id,
+        name,
+        formula: claim("gives"),
+        constants: settings.join(", ").leak(),
+        odd_frames: claim("caveat"),
+        users: name,
+        source: claim("known"),
+        drawing: if shows { Interpolation::Linear } else { Interpolation::Raw },
+        has_render_tick: false,
+        has_fixed_tick,
+        needs_exact_clock: has_fixed_tick && !shows && claim("steady").is_empty(),
+        has_max_ticks: false,
+        is_usual: false,
+        snippets: &[],
+        build: Build::Lines(Box::leak(Box::new(lines))),
+        engine: Some(Engine {
+            version: claim("version"),
+            caveat: claim("caveat"),
+            advice: claim("set"),
+            text,
+        }),
+    })
+}
+
+/// Returns the loop of a person's own lines under an id, such as the name of their file. It lives as long as the
+/// process.
+///
+/// # Errors
+/// The first fault of the lines.
+///
+/// ```
+/// use regatta::loops::own_loop;
+///
+/// let raw = own_loop("mine", "memory owed = 0; owed += dt\nwhile owed >= H { tick 1; owed -= H }").unwrap();
+/// assert!(raw.has_fixed_tick);
+/// assert!(own_loop("mine", "owed = dt").is_err());
+/// ```
+pub fn own_loop(id: &str, text: &str) -> Result<&'static PolicyCard, ExpressionFault> {
+    LoopText::read(text)?;
+    let card = card(id.to_owned().leak(), text.to_owned().leak())?;
+    Ok(Box::leak(Box::new(card)))
+}
+
+/// Returns the engine with this id.
+pub fn engine(id: &str) -> Option<&'static PolicyCard> {
+    ENGINES.iter().find(|card| card.id == id)
+}
+
+impl PolicyCard {
+    /// Returns the same loop of lines with constants set to other numbers.
+    ///
+    /// # Errors
+    /// The name of the first constant that the lines don't have, with the names of those that they have.
+    pub fn with_settings(
+        &'static self,
+        settings: &[(String, f64)],
+    ) -> Result<&'static Self, (String, Vec<String>)> {
+        let Some(Engine { text, .. }) = self.engine.filter(|_| !settings.is_empty()) else {
+            return match settings.first() {
+                Some((name, _)) => Err((name.clone(), Vec::new())),
+                None => Ok(self),
+            };
+        };
+        let mut text = text.to_owned();
+        for (name, value) in settings {
+            text = LoopText::set(&text, name, *value).map_err(|known| (name.clone(), known))?;
+        }
+        let card = own_loop(self.id, &text);
+        Ok(card.expect("a number in the place of another leaves the lines valid"))
+    }
+}
