@@ -81,7 +81,7 @@ Examples:
 pub(super) struct LoopArgs {
     /// A policy, or several [default: the usual ones]
     ///
-    /// `regatta list policies` has them, and `regatta list engines` the loops of engines. A file that ends in .loop is a
+    /// `regatta list policies` has them, and `regatta list engine-loops` those of engines. A file that ends in .loop is a
     /// loop of your own. Give the option again for each, to compare them.
     #[arg(long = "policy", value_name = "ID|FILE", value_parser = LoopOrFile, hide_possible_values = true)]
     policies: Vec<&'static PolicyCard>,
@@ -92,7 +92,7 @@ pub(super) struct LoopArgs {
 
     /// The loop of your engine, with what it does to your game in three lines
     ///
-    /// `regatta list engines` has them.
+    /// `regatta list engine-loops` has them.
     #[arg(long, value_name = "ID", value_parser = ENGINE, hide_possible_values = true)]
     #[arg(conflicts_with_all = ["policies", "all", "engines"])]
     engine: Option<&'static PolicyCard>,
@@ -103,7 +103,7 @@ pub(super) struct LoopArgs {
 
     /// A constant of the loop's lines, such as max_ticks=4
     ///
-    /// `regatta list engines --format json` has those of engines. Give the option again for each.
+    /// `regatta list engine-loops --format json` has those of engines. Give the option again for each.
     #[arg(long = "set", value_name = "NAME=N", value_parser = setting)]
     settings: Vec<(String, f64)>,
 

@@ -89,13 +89,13 @@ pub(super) const METHOD: Id<&Method> = Id {
 
 /// The ideal loops, and those of engines and libraries.
 pub(super) const LOOP: Id<&PolicyCard> = Id {
-    lists: &["policies", "engines"],
+    lists: &["policies", "engine-loops"],
     spellings: || loops().map(|card| (card.name, card.id)).collect(),
     ..Id::new("policy", || loops().map(|card| (card.id.into(), card)).collect())
 };
 
 pub(super) const ENGINE: Id<&PolicyCard> = Id {
-    lists: &["engines"],
+    lists: &["engine-loops"],
     spellings: || ENGINES.iter().map(|card| (card.name, card.id)).collect(),
     ..Id::new("engine", || ENGINES.iter().map(|card| (card.id.into(), card)).collect())
 };

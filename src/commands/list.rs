@@ -23,9 +23,9 @@ Examples:
   regatta list bodies                  the tables and keys of a scene file
   regatta list methods --format json   with everything on a method's card";
 
-const WHAT: &str = "scenes|methods|bodies|metrics|policies|engines|traces|keys";
+const WHAT: &str = "scenes|methods|bodies|metrics|policies|engine-loops|traces|keys";
 
-/// List scenes, methods, bodies, metrics, policies, engines, traces or keys
+/// List scenes, methods, bodies, metrics, policies, engine-loops, traces or keys
 #[derive(Debug, Args)]
 #[command(after_long_help = flowing(EXAMPLES))]
 #[command(override_usage = "regatta list [OPTIONS] <WHAT>")]
@@ -52,7 +52,7 @@ enum Listing {
     /// The game loops, for `loop --policy`
     Policies,
     /// The loops of engines and libraries, for `loop --policy` and `loop --engine`
-    Engines,
+    EngineLoops,
     /// The frame traces, for `loop --trace`
     Traces,
     /// The keys of the window
@@ -76,7 +76,7 @@ pub(super) fn run(args: &ListArgs) -> Result<(), Error> {
         Listing::Bodies => write(BODY, &BODIES, args.format),
         Listing::Metrics => write(METRIC, METRICS, args.format),
         Listing::Policies => write(POLICY, POLICIES, args.format),
-        Listing::Engines => write(ENGINE, &ENGINES, args.format),
+        Listing::EngineLoops => write(ENGINE, &ENGINES, args.format),
         Listing::Traces => write(TRACE, TRACES, args.format),
         Listing::Keys => write(KEY, KEYS, args.format),
     };

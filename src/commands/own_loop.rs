@@ -3,12 +3,13 @@
 use std::ffi::OsStr;
 use std::path::Path;
 
+use annotate_snippets::Renderer;
 use clap::builder::{PossibleValue, TypedValueParser};
+use clap::error::ErrorKind;
 
 use super::argument::{brief, number_that};
 use super::error::Error;
 use super::id::LOOP;
-use super::own_method::refusal;
 use crate::loops::{PolicyCard, own_loop};
 use crate::regular_file;
 use crate::scene::{MAX_FILE_BYTES, SceneErrors};
@@ -35,6 +36,13 @@ impl TypedValueParser for LoopOrFile {
     fn possible_values(&self) -> Option<Box<dyn Iterator<Item = PossibleValue> + '_>> {
         Some(Box::new((LOOP.all)().into_iter().map(|(id, _)| PossibleValue::new(id))))
     }
+}
+
+/// Returns the refusal of an argument for an error in its file.
+pub(super) fn refusal(error: Error) -> clap::Error {
+    let report = error.report(&Renderer::plain());
+    let report = report.strip_prefix("error: ").unwrap_or(&report);
+    clap::Error::raw(ErrorKind::ValueValidation, format!("{report}\n"))
 }
 
 /// Whether the name of a file promises the lines of a loop.

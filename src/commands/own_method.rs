@@ -3,14 +3,12 @@
 use std::ffi::OsStr;
 use std::path::Path;
 
-use annotate_snippets::Renderer;
 use clap::builder::{PossibleValue, TypedValueParser};
-use clap::error::ErrorKind;
 
 use super::argument::brief;
 use super::error::Error;
 use super::id::{Id, METHOD};
-use super::own_loop;
+use super::own_loop::{self, refusal};
 use crate::loops::PolicyCard;
 use crate::regular_file;
 use crate::scene::{LaneSpec, MAX_FILE_BYTES};
@@ -51,13 +49,6 @@ impl<T: Copy + Send + Sync + 'static> TypedValueParser for OrStepFile<T> {
     fn possible_values(&self) -> Option<Box<dyn Iterator<Item = PossibleValue> + '_>> {
         Some(Box::new((self.id.all)().into_iter().map(|(id, _)| PossibleValue::new(id))))
     }
-}
-
-/// Returns the refusal of an argument for an error in its file.
-pub(super) fn refusal(error: Error) -> clap::Error {
-    let report = error.report(&Renderer::plain());
-    let report = report.strip_prefix("error: ").unwrap_or(&report);
-    clap::Error::raw(ErrorKind::ValueValidation, format!("{report}\n"))
 }
 
 /// Whether the name of a file promises the lines of a step.

@@ -74,7 +74,7 @@ const ITEM_OR_FILE: OrStepFile<ShownItem> = OrStepFile {
 /// Parser for the id of a method, one of its other ids, or the id of a game loop.
 const SHOWN_ITEM: Id<ShownItem> = Id {
     thing: "method or policy",
-    lists: &["methods", "policies", "engines"],
+    lists: &["methods", "policies"],
     all: || {
         let own = METHODS.iter().map(|it| (it.id, ShownItem::Method { method: it, alias: None }));
         let others = METHODS.iter().flat_map(|method| {

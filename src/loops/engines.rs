@@ -128,7 +128,7 @@ impl PolicyCard {
     /// Returns the same loop of lines with constants set to other numbers.
     ///
     /// # Errors
-    /// The name of the first constant that the lines don't have, with the names of those that they have.
+    /// The name of the first unknown constant, with the names of the known ones.
     pub fn with_settings(
         &'static self,
         settings: &[(String, f64)],

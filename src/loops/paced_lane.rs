@@ -43,8 +43,8 @@ impl PacedLane {
         self.lane.evaluations() + self.evaluations_ahead
     }
 
-    /// Makes the steps of a frame, where `duration_ns` is the duration of the last frame in nanoseconds, and `ms` the same
-    /// in milliseconds as a clock in double precision reads it. Before each step it calls `before_step` with the number of steps made and the time in seconds.
+    /// Makes the steps of a frame that lasted `duration_ns` nanoseconds, or `ms` milliseconds on a clock in double
+    /// precision. Before each step it calls `before_step` with the number of steps made and the time in seconds.
     pub fn frame(
         &mut self,
         duration_ns: i64,

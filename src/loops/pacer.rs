@@ -1,6 +1,7 @@
 //! A policy at work, and the time that it has simulated.
 
-use super::policy::{Excess, FrameLimits, LongFrame, Policy, PolicyCard, Steps};
+use super::policies::lines::Lines;
+use super::policy::{Build, Excess, FrameLimits, LongFrame, Policy, PolicyCard, Steps};
 use super::time_base::TimeBase;
 use crate::run::race::Interpolation;
 
@@ -32,7 +33,10 @@ impl Pacer {
 
     /// Like [`new`](Self::new), with limits on the work in a frame.
     pub fn limited(card: &'static PolicyCard, base: TimeBase, limits: FrameLimits) -> Self {
-        let policy = card.policy(base, limits);
+        let policy = match card.build {
+            Build::Rust(build) => build(base, limits),
+            Build::Lines(text) => Box::new(Lines::new(text, base, limits)),
+        };
         let longest = limits.max_frame_ms.map(|ms| base.nanoseconds(i64::from(ms) * 1_000_000));
         let FrameLimits { long_frame, excess, .. } = limits;
         Self {

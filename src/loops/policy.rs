@@ -1,6 +1,5 @@
 //! The policy of a game loop, which decides on the steps of each frame, and its card.
 
-use super::policies::lines::Lines;
 use super::time_base::TimeBase;
 use crate::run::race::Interpolation;
 use crate::sim::law::LoopText;
@@ -72,7 +71,8 @@ pub trait Policy: Send {
     /// never negative.
     fn frame(&mut self, duration: i128) -> Steps;
 
-    /// Decides on the steps of a frame like [`frame`](Self::frame), with its duration in milliseconds as a game reads it.
+    /// Decides on the steps of a frame like [`frame`](Self::frame), with its duration in milliseconds as a game reads
+    /// it.
     fn frame_in_ms(&mut self, duration: i128, _ms: f64) -> Steps {
         self.frame(duration)
     }
@@ -132,7 +132,7 @@ pub struct PolicyCard {
     pub has_render_tick: bool,
     /// Whether every step is a whole tick, so that the physics is the same to the bit at any frame rate.
     pub has_fixed_tick: bool,
-    /// Whether the picture flutters between no tick and two if the clock rounds and the tick rate is that of the display.
+    /// Whether the picture flutters between no tick and two if the clock rounds, at the tick rate of the display.
     pub needs_exact_clock: bool,
     /// Whether the policy limits the ticks in a frame, so that a person can set the limit.
     pub has_max_ticks: bool,
@@ -166,13 +166,6 @@ pub(super) enum Build {
 }
 
 impl PolicyCard {
-    pub(super) fn policy(&self, base: TimeBase, limits: FrameLimits) -> Box<dyn Policy> {
-        match self.build {
-            Build::Rust(build) => build(base, limits),
-            Build::Lines(text) => Box::new(Lines::new(text, base, limits)),
-        }
-    }
-
     /// Whether the loop is lines, which may be given times below 0.
     pub fn is_lines(&self) -> bool {
         matches!(self.build, Build::Lines(_))

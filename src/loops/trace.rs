@@ -174,9 +174,10 @@ impl FrameTrace {
     pub(super) fn with_conflicting_clocks(self, parting: ClockConflict) -> Self {
         Self { clocks: Clocks::Conflicting(parting), ..self }
     }
-    /// Returns the same frames, where the first one took `lead_ns` nanoseconds from the start of the clock, and each one
-    /// as many milliseconds as in `exact_ms`.
-    pub(super) fn with_lead(mut self, lead_ns: i64, exact_ms: Vec<f64>) -> Self {
+    /// Returns the same frames. If the first is counted, these are its nanoseconds from the start of the clock, and the
+    /// milliseconds of all frames as the log prints them.
+    pub(super) fn with_lead(mut self, counted: Option<(i64, Vec<f64>)>) -> Self {
+        let Some((lead_ns, exact_ms)) = counted else { return self };
         if let Source::Recorded(frames) = &mut self.source {
             for frame in Arc::make_mut(frames) {
                 frame.began_ns += lead_ns;

@@ -464,8 +464,7 @@ fn read_in(
     if streams.is_empty() {
         return Err(at(header_line, Fault::NoRows));
     }
-    let mut still = streams.iter().filter(|stream| stream.stands_still() && !options.signed);
-    if let Some(still) = still.next() {
+    if let Some(still) = streams.iter().find(|it| it.stands_still() && !options.signed) {
         return Err(at(still.line(), Fault::NoTimePasses { frames: still.frames() }));
     }
     let longest = streams.iter().max_by_key(|stream| stream.frames());
@@ -511,9 +510,7 @@ fn read_in(
             .push(format!("{repeated} rows have the time of the row before, and are left out"));
     }
     if columns.counts_first() && checks.frames_ms.iter().all(|ms| ms.fract() == 0.0) {
-        taken.notes.push(
-            "the times are whole milliseconds, so that unevenness below one is rounding".into(),
-        );
+        taken.notes.push("the times are whole milliseconds, and less is rounding".into());
     }
     let median_ms = median(&checks.frames_ms).unwrap_or(0.0);
     if median_ms > MAX_USUAL_MS {
@@ -527,10 +524,7 @@ fn read_in(
         let counted = columns.counts_first().then(|| stream.counted());
         let trace = stream.into_trace(name, columns.is_sure_of_time(), known);
         let trace = trace.written_by(format.clone()).with_taken(taken.clone());
-        let trace = match counted {
-            Some((lead_ns, exact_ms)) => trace.with_lead(lead_ns, exact_ms),
-            None => trace,
-        };
+        let trace = trace.with_lead(counted);
         match (columns.has_display(), columns.has_one_clock()) {
             _ if trace.missing_display().is_some() => trace,
             (false, _) => trace.without_display(),

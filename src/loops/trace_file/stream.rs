@@ -207,7 +207,7 @@ impl Stream {
         }
     }
 
-    /// Returns the duration of the first frame before it began, in nanoseconds, and those of all frames in milliseconds.
+    /// Returns the duration of the first frame before it began in nanoseconds, and of all frames in milliseconds.
     pub(super) fn counted(&self) -> (i64, Vec<f64>) {
         (self.lead_ns, self.exact_ms.clone())
     }

@@ -15,18 +15,18 @@ const HEADER: &str = "policy,trace,tick_hz,frames,animation_error_rms_ms,animati
                       speed_percent,owed_ms,fast_forward_frames,backward_frames";
 
 /// The rows of `loop` with these options.
-fn rows(options: &str) -> Vec<Value> {
+pub(super) fn rows(options: &str) -> Vec<Value> {
     let output = run(&format!("loop {options} --format json"));
     assert_eq!(output.status.code(), Some(0), "{options}: {}", stderr(&output));
     serde_json::from_slice(&output.stdout).unwrap()
 }
 
-fn number(row: &Value, column: &str) -> f64 {
+pub(super) fn number(row: &Value, column: &str) -> f64 {
     row[column].as_f64().unwrap_or_else(|| panic!("{column} of {row}"))
 }
 
 /// Asserts that a value is within 2 % of one derived by hand, or within a millionth of 0.
-fn near(row: &Value, column: &str, expected: f64) {
+pub(super) fn near(row: &Value, column: &str, expected: f64) {
     let value = number(row, column);
     let is_near = value.is_finite() && (value - expected).abs() <= 0.02 * expected.abs() + 1e-6;
     assert!(is_near, "{column} of {row}: {expected} was expected");
@@ -511,98 +511,4 @@ fn a_log_with_diverging_clocks_uses_frame_starts_with_a_notice() {
             near(&rows[0], "latency_mean_ms", 0.0);
         }
     }
-}
-
-#[test]
-fn a_refresh_of_one_tick_is_one_step_of_semi_fixed() {
-    for (trace, ticks) in [("steady-60", 3600.0), ("steady-120", 7200.0), ("spiral", 2885.0)] {
-        let row = &rows(&format!("--trace {trace} --policy semi-fixed --seconds 60"))[0];
-        near(row, "ticks", ticks);
-        near(row, "evaluations", 4.0 * number(row, "ticks"));
-    }
-}
-
-#[test]
-fn raw_ticks_as_frequent_as_refreshes_are_never_advised() {
-    let advised = |options: &str| {
-        let told = stderr(&run(&format!("loop {options} --policy fixed --policy fixed-linear")));
-        told.lines().next().unwrap_or_default().to_owned()
-    };
-    for options in ["--trace steady-60", "--display-hz 59.5", "--trace steady-120 --tick-hz 120"] {
-        assert!(advised(options).contains("take fixed-linear"), "{options}: {}", advised(options));
-    }
-    let half = advised("--trace steady-120 --tick-hz 240");
-    assert!(half.contains("take fixed:"), "{half}");
-    let alone = stderr(&run("loop --trace steady-60 --policy fixed"));
-    assert!(alone.contains("a clock that rounds decides between no tick and two"), "{alone}");
-}
-
-/// Measures the policies on a list of frame times in ms, and returns the rows of the frames.
-fn frames_of(times: &[f64], options: &str) -> Vec<csv::StringRecord> {
-    let folder = tempfile::tempdir().unwrap();
-    let list: String = times.iter().map(|time| format!("{time}\n")).collect();
-    fs::write(folder.path().join("list.txt"), list).unwrap();
-    let output = run_in(
-        folder.path(),
-        &format!("loop --trace list.txt {options} --out rows.csv --frame-rows frames.csv"),
-    );
-    assert_eq!(output.status.code(), Some(0), "{options}: {}", stderr(&output));
-    let mut frames = csv::Reader::from_path(folder.path().join("frames.csv")).unwrap();
-    frames.records().map(Result::unwrap).collect()
-}
-
-/// The numbers of a column of frames, by its index.
-fn column(frames: &[csv::StringRecord], index: usize) -> Vec<f64> {
-    frames.iter().map(|row| row[index].parse().unwrap()).collect()
-}
-
-/// Columns of the frames.
-const TICKS: usize = 6;
-const STEP_MS: usize = 9;
-const OWED_MS: usize = 10;
-
-#[test]
-fn each_line_of_a_list_is_a_frame() {
-    let times = [16.0, 17.0, 17.0, 16.0, 250.0];
-    let frames = frames_of(&times, "--policy variable");
-    assert_eq!(column(&frames, STEP_MS), times);
-    assert_eq!(column(&frames, 3), [16.0, 33.0, 50.0, 66.0, 316.0]);
-    assert_eq!(column(&frames, OWED_MS), [0.0; 5]);
-    let rounded: Vec<f64> = (0..301).map(|n| if n % 3 == 1 { 16.0 } else { 17.0 }).collect();
-    let folder = tempfile::tempdir().unwrap();
-    let list: String = rounded.iter().map(|time| format!("{time}\n")).collect();
-    fs::write(folder.path().join("list.txt"), list).unwrap();
-    let told = stderr(&run_in(folder.path(), "loop --trace list.txt --policy fixed-linear"));
-    assert!(told.contains("(60 Hz display") && told.contains("whole milliseconds"), "{told}");
-}
-
-#[test]
-fn long_frames_and_excess_ticks_count_as_asked() {
-    let tick = 1000.0 / 60.0 + 1e-6;
-    let times = [tick, tick, 1000.0, tick, tick, tick];
-    for (options, ticks) in [
-        ("--max-ticks 20", [1.0, 1.0, 20.0, 1.0, 1.0, 1.0]),
-        ("--max-ticks 20 --excess keep", [1.0, 1.0, 20.0, 20.0, 20.0, 3.0]),
-        ("--long-frame clamp:100", [1.0, 1.0, 6.0, 1.0, 1.0, 1.0]),
-        ("--long-frame replace:200=50.1", [1.0, 1.0, 3.0, 1.0, 1.0, 1.0]),
-        ("--long-frame last:66.7", [1.0; 6]),
-    ] {
-        let frames = frames_of(&times, &format!("--policy fixed {options}"));
-        assert_eq!(column(&frames, TICKS), ticks, "{options}");
-    }
-    for bad in ["--excess save", "--long-frame clamp", "--long-frame last:-1"] {
-        assert_eq!(run(&format!("loop {bad}")).status.code(), Some(2), "{bad}");
-    }
-}
-
-#[test]
-fn refreshes_without_a_new_picture_are_counted() {
-    let row = &rows("--fps 50 --display-hz 120 --policy variable --seconds 20")[0];
-    near(row, "old_refreshes_percent", 58.333);
-    near(row, "repeated_percent", 0.0);
-    let row = &rows("--fps 59.8261 --display-hz 60 --tick-hz 59.8261 --policy lockstep")[0];
-    assert!((0.2..0.5).contains(&number(row, "old_refreshes_percent")), "{row}");
-    let row = &rows("--trace alt-tab-5s --policy fixed --seconds 20")[0];
-    near(row, "speed_percent", 100.0 * (20_000.0 - number(row, "dropped_ms")) / 20_000.0);
-    near(row, "backward_frames", 0.0);
 }

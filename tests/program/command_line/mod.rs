@@ -18,6 +18,7 @@ mod help;
 mod identify;
 mod link;
 mod list;
+mod loop_frames;
 mod loops;
 mod manifest;
 mod mishaps;

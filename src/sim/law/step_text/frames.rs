@@ -1,38 +1,15 @@
 //! The lines of a game loop, which run once a frame and decide on its ticks.
 //!
-//! Numbers are `f64`, and times are in milliseconds. A line `tick n of s` makes `n` ticks of `s` each, and `tick n` makes
-//! ticks of `H`. A line `show a` shows the part `a` of the way from the last tick but one to the last.
+//! Numbers are `f64`, and times are in milliseconds. A line `tick n of s` makes `n` ticks of `s` each, and `tick n`
+//! makes ticks of `H`. A line `show a` shows the part `a` of the way from the last tick but one to the last.
 
 use std::ops::Range;
 
 use super::plain::plain;
-use super::reader::Reader;
+use super::reader::{COST, FIRST, LENGTH, NOW, REFRESH, Reader, SHOWN};
 use super::statements::{Statement, statements};
 use super::{Declares, Line, StepRegisters, StepText, TARGET};
 use crate::sim::law::fault::ExpressionFault;
-
-/// The names of every loop. The first four have the slots of a step: the ticks of the frame so far, their time, the
-/// duration of the frame, and the length of a tick. Those with a space are for `tick` and `show`.
-pub(super) const FRAME_NAMES: [&str; 11] = [
-    "ticks made",
-    "time made",
-    "dt",
-    "H",
-    "refresh",
-    "cost",
-    "now",
-    "first",
-    "ticks added",
-    "tick length",
-    "part shown",
-];
-const REFRESH: usize = 4;
-const COST: usize = 5;
-const NOW: usize = 6;
-const FIRST: usize = 7;
-pub(super) const COUNT: usize = 8;
-pub(super) const LENGTH: usize = 9;
-pub(super) const SHOWN: usize = 10;
 
 /// A frame as a loop sees it. Times are in milliseconds.
 #[derive(Clone, Copy, Debug, PartialEq)]

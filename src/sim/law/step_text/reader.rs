@@ -2,9 +2,9 @@
 
 use std::ops::Range;
 
+pub(super) use frames::{COST, FIRST, FRAME_NAMES, LENGTH, NOW, REFRESH, SHOWN};
 use functions::end_of;
 
-use super::frames::FRAME_NAMES;
 use super::method::{Array, Function as OwnFunction, Machine, Taken};
 use super::paths::{SMOOTH_DAMP, damped_velocity};
 use super::statements::Statement;
@@ -409,33 +409,10 @@ impl<'t> Reader<'t> {
                 self.lines.push(Line::Stop { fails });
                 Ok(())
             }
-            Statement::Array { .. } => Ok(()),
-            Statement::Store { name, index, value } => {
-                let word = &self.text[name.clone()];
-                let Some(array) = self.array(word) else {
-                    let what = format!("`{}` is no array", quoted(word));
-                    return fault(name, what, "a loop declares one: `memory past[10] = 0`");
-                };
-                let index = self.expression(index, false)?;
-                let value = self.expression(value, false)?;
-                self.note_reads(&index);
-                self.note_reads(&value);
-                self.lines.push(Line::Store { array, index, value });
-                Ok(())
-            }
-            Statement::Tick { word, count, length } => {
-                self.expect_loop(&word)?;
-                let count = self.expression(count, false)?;
-                let length = length.map(|length| self.expression(length, false)).transpose()?;
-                self.tick(count, length);
-                Ok(())
-            }
-            Statement::Show { word, value } => {
-                self.expect_loop(&word)?;
-                let value = self.expression(value, false)?;
-                self.show(value);
-                Ok(())
-            }
+            statement @ (Statement::Store { .. }
+            | Statement::Tick { .. }
+            | Statement::Show { .. }
+            | Statement::Array { .. }) => self.read_frame_statement(statement),
             Statement::Takes(_) | Statement::Function { .. } => Ok(()),
             Statement::Use(name) => self.use_shared(name),
             Statement::Else(condition, brace) => {

@@ -6,9 +6,32 @@ use super::Reader;
 use crate::sim::law::expression::{Expression, Node, Scope as _};
 use crate::sim::law::fault::{Parsed, fault, quoted};
 use crate::sim::law::op::Op;
-use crate::sim::law::step_text::frames::{COUNT, LENGTH, SHOWN};
 use crate::sim::law::step_text::method::Array;
+use crate::sim::law::step_text::statements::Statement;
 use crate::sim::law::step_text::{Line, TARGET, V, X};
+
+/// The names of every loop. The first four have the slots of a step: the ticks of the frame so far, their time, the
+/// duration of the frame, and the length of a tick. Those with a space are for `tick` and `show`.
+pub(in super::super) const FRAME_NAMES: [&str; 11] = [
+    "ticks made",
+    "time made",
+    "dt",
+    "H",
+    "refresh",
+    "cost",
+    "now",
+    "first",
+    "ticks added",
+    "tick length",
+    "part shown",
+];
+pub(in super::super) const REFRESH: usize = 4;
+pub(in super::super) const COST: usize = 5;
+pub(in super::super) const NOW: usize = 6;
+pub(in super::super) const FIRST: usize = 7;
+pub(in super::super) const COUNT: usize = 8;
+pub(in super::super) const LENGTH: usize = 9;
+pub(in super::super) const SHOWN: usize = 10;
 
 /// The most numbers of an array.
 const MAX_ARRAY: f64 = 1024.0;
@@ -23,7 +46,7 @@ fn product(names: &[usize]) -> Expression {
 }
 
 impl Reader<'_> {
-    pub(super) fn expect_loop(&self, word: &Range<usize>) -> Parsed<()> {
+    fn expect_loop(&self, word: &Range<usize>) -> Parsed<()> {
         if self.is_loop {
             return Ok(());
         }
@@ -31,8 +54,40 @@ impl Reader<'_> {
         fault(word.clone(), what, "name the file .loop, or assign `x` and `v`")
     }
 
+    /// Reads a statement that only a loop has.
+    pub(super) fn read_frame_statement(&mut self, statement: Statement) -> Parsed<()> {
+        match statement {
+            Statement::Store { name, index, value } => {
+                let word = &self.text[name.clone()];
+                let Some(array) = self.array(word) else {
+                    let what = format!("`{}` is no array", quoted(word));
+                    return fault(name, what, "a loop declares one: `memory past[10] = 0`");
+                };
+                let index = self.expression(index, false)?;
+                let value = self.expression(value, false)?;
+                self.note_reads(&index);
+                self.note_reads(&value);
+                self.lines.push(Line::Store { array, index, value });
+            }
+            Statement::Tick { word, count, length } => {
+                self.expect_loop(&word)?;
+                let count = self.expression(count, false)?;
+                let length = length.map(|length| self.expression(length, false)).transpose()?;
+                self.tick(count, length);
+            }
+            Statement::Show { word, value } => {
+                self.expect_loop(&word)?;
+                let value = self.expression(value, false)?;
+                self.note_reads(&value);
+                self.lines.push(Line::Assign { name: SHOWN, joins: "", value, declares: None });
+            }
+            _ => {}
+        }
+        Ok(())
+    }
+
     /// Adds ticks of a length, or of `H`.
-    pub(super) fn tick(&mut self, count: Expression, length: Option<Expression>) {
+    fn tick(&mut self, count: Expression, length: Option<Expression>) {
         self.note_reads(&count);
         length.iter().for_each(|length| self.note_reads(length));
         let length = length.unwrap_or_else(|| product(&[TARGET]));
@@ -44,11 +99,6 @@ impl Reader<'_> {
         ] {
             self.lines.push(Line::Assign { name, joins, value, declares: None });
         }
-    }
-
-    pub(super) fn show(&mut self, value: Expression) {
-        self.note_reads(&value);
-        self.lines.push(Line::Assign { name: SHOWN, joins: "", value, declares: None });
     }
 
     /// Declares an array.

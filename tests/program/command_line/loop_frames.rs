@@ -1,0 +1,157 @@
+//! `loop`: what each frame of a list counts as, its limits, and loops of lines.
+
+use std::fs;
+
+use super::loops::{near, number, rows};
+use super::{run, run_in, stderr};
+
+#[test]
+fn a_refresh_of_one_tick_is_one_step_of_semi_fixed() {
+    for (trace, ticks) in [("steady-60", 3600.0), ("steady-120", 7200.0), ("spiral", 2885.0)] {
+        let row = &rows(&format!("--trace {trace} --policy semi-fixed --seconds 60"))[0];
+        near(row, "ticks", ticks);
+        near(row, "evaluations", 4.0 * number(row, "ticks"));
+    }
+}
+
+#[test]
+fn raw_ticks_as_frequent_as_refreshes_are_never_advised() {
+    let advised = |options: &str| {
+        let told = stderr(&run(&format!("loop {options} --policy fixed --policy fixed-linear")));
+        told.lines().next().unwrap_or_default().to_owned()
+    };
+    for options in ["--trace steady-60", "--display-hz 59.5", "--trace steady-120 --tick-hz 120"] {
+        assert!(advised(options).contains("take fixed-linear"), "{options}: {}", advised(options));
+    }
+    let half = advised("--trace steady-120 --tick-hz 240");
+    assert!(half.contains("take fixed:"), "{half}");
+    let alone = stderr(&run("loop --trace steady-60 --policy fixed"));
+    assert!(alone.contains("a clock that rounds decides between no tick and two"), "{alone}");
+}
+
+/// Measures the policies on a list of frame times in ms, and returns the rows of the frames.
+fn frames_of(times: &[f64], options: &str) -> Vec<csv::StringRecord> {
+    let folder = tempfile::tempdir().unwrap();
+    let list: String = times.iter().map(|time| format!("{time}\n")).collect();
+    fs::write(folder.path().join("list.txt"), list).unwrap();
+    let output = run_in(
+        folder.path(),
+        &format!("loop --trace list.txt {options} --out rows.csv --frame-rows frames.csv"),
+    );
+    assert_eq!(output.status.code(), Some(0), "{options}: {}", stderr(&output));
+    let mut frames = csv::Reader::from_path(folder.path().join("frames.csv")).unwrap();
+    frames.records().map(Result::unwrap).collect()
+}
+
+/// The numbers of a column of frames, by its index.
+fn column(frames: &[csv::StringRecord], index: usize) -> Vec<f64> {
+    frames.iter().map(|row| row[index].parse().unwrap()).collect()
+}
+
+/// Columns of the frames.
+const TICKS: usize = 6;
+const STEP_MS: usize = 9;
+const OWED_MS: usize = 10;
+
+#[test]
+fn each_line_of_a_list_is_a_frame() {
+    let times = [16.0, 17.0, 17.0, 16.0, 250.0];
+    let frames = frames_of(&times, "--policy variable");
+    assert_eq!(column(&frames, STEP_MS), times);
+    assert_eq!(column(&frames, 3), [16.0, 33.0, 50.0, 66.0, 316.0]);
+    assert_eq!(column(&frames, OWED_MS), [0.0; 5]);
+    let rounded: Vec<f64> = (0..301).map(|n| if n % 3 == 1 { 16.0 } else { 17.0 }).collect();
+    let folder = tempfile::tempdir().unwrap();
+    let list: String = rounded.iter().map(|time| format!("{time}\n")).collect();
+    fs::write(folder.path().join("list.txt"), list).unwrap();
+    let told = stderr(&run_in(folder.path(), "loop --trace list.txt --policy fixed-linear"));
+    assert!(told.contains("(60 Hz display") && told.contains("whole milliseconds"), "{told}");
+}
+
+#[test]
+fn long_frames_and_excess_ticks_count_as_asked() {
+    let tick = 1000.0 / 60.0 + 1e-6;
+    let times = [tick, tick, 1000.0, tick, tick, tick];
+    for (options, ticks) in [
+        ("--max-ticks 20", [1.0, 1.0, 20.0, 1.0, 1.0, 1.0]),
+        ("--max-ticks 20 --excess keep", [1.0, 1.0, 20.0, 20.0, 20.0, 3.0]),
+        ("--long-frame clamp:100", [1.0, 1.0, 6.0, 1.0, 1.0, 1.0]),
+        ("--long-frame replace:200=50.1", [1.0, 1.0, 3.0, 1.0, 1.0, 1.0]),
+        ("--long-frame last:66.7", [1.0; 6]),
+    ] {
+        let frames = frames_of(&times, &format!("--policy fixed {options}"));
+        assert_eq!(column(&frames, TICKS), ticks, "{options}");
+    }
+    for bad in ["--excess save", "--long-frame clamp", "--long-frame last:-1"] {
+        assert_eq!(run(&format!("loop {bad}")).status.code(), Some(2), "{bad}");
+    }
+}
+
+#[test]
+fn refreshes_without_a_new_picture_are_counted() {
+    let row = &rows("--fps 50 --display-hz 120 --policy variable --seconds 20")[0];
+    near(row, "old_refreshes_percent", 58.333);
+    near(row, "repeated_percent", 0.0);
+    let row = &rows("--fps 59.8261 --display-hz 60 --tick-hz 59.8261 --policy lockstep")[0];
+    assert!((0.2..0.5).contains(&number(row, "old_refreshes_percent")), "{row}");
+    let row = &rows("--trace alt-tab-5s --policy fixed --seconds 20")[0];
+    near(row, "speed_percent", 100.0 * (20_000.0 - number(row, "dropped_ms")) / 20_000.0);
+    near(row, "backward_frames", 0.0);
+}
+
+#[test]
+fn an_engine_answers_in_three_lines() {
+    let folder = tempfile::tempdir().unwrap();
+    let list = "16.666666666666668\n".repeat(600);
+    fs::write(folder.path().join("my.csv"), list).unwrap();
+    let output = run_in(folder.path(), "loop --engine phaser-limit60 --trace my.csv");
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    let told = stderr(&output);
+    let lines: Vec<&str> = told.lines().skip(1).collect();
+    assert_eq!(lines.len(), 3, "{told}");
+    assert!(
+        lines[0].contains("4.2.1 on my.csv: runs too fast, at 1") && lines[2].starts_with("set: ")
+    );
+    assert!(lines[1].contains("a hitch of 100 ms: ") && lines[1].contains("; a hitch of 10 s: "));
+    assert!(String::from_utf8_lossy(&output.stdout).contains("\nphaser-limit60,my.csv,60,600,"));
+}
+
+#[test]
+fn a_loop_of_lines_takes_times_below_0_and_settings() {
+    let times = [16.0, -20.0, 0.0, 400.0];
+    let frames = frames_of(&times, "--policy three-timer");
+    assert_eq!(column(&frames, STEP_MS), times);
+    assert_eq!(column(&frames, TICKS), [1.0; 4]);
+    let frames = frames_of(&times, "--policy babylon-lockstep --set max_ticks=15");
+    assert_eq!(column(&frames, TICKS), [1.0, 0.0, 0.0, 15.0]);
+    let folder = tempfile::tempdir().unwrap();
+    let at = |name: &str, text: &str| fs::write(folder.path().join(name), text).unwrap();
+    at("list.txt", "16\n-20\n16\n");
+    at(
+        "mine.loop",
+        "const most = 3\nmemory owed = 0\nowed += dt\ntick min(floor(owed / H), most)\nowed = 0\n",
+    );
+    at("bad.loop", "tick 1 of dtt\n");
+    let told = |options: &str| {
+        let output = run_in(folder.path(), &format!("loop {options}"));
+        (output.status.code(), stderr(&output))
+    };
+    assert_eq!(told("--trace list.txt --policy mine.loop --set most=9").0, Some(0));
+    for (options, said) in [
+        ("--trace list.txt --policy mine.loop --policy fixed", "-20 is negative"),
+        ("--policy bad.loop", "bad.loop:1:11: unknown name `dtt`"),
+        ("--policy none.loop", "no file is called \"none.loop\""),
+        (
+            "--policy bevy --set most=3",
+            "no line declares \"most\"; set one of hz=64, max_frame_ms=250",
+        ),
+        ("--policy fixed --set hz=3", "no line declares \"hz\""),
+        ("--policy unity --max-ticks 3", "--set hz=50, --set max_frame_ms=1000 / 3"),
+        ("--engine fixed", "no such engine"),
+    ] {
+        let (code, told) = told(options);
+        assert!(code == Some(2) && told.contains(said), "{options}: {told}");
+    }
+    let shown = run_in(folder.path(), "show mine.loop --as step");
+    assert_eq!(shown.stdout, fs::read(folder.path().join("mine.loop")).unwrap());
+}
