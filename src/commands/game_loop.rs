@@ -24,6 +24,7 @@ use super::table_args::{TableArgs, taken_object};
 use super::tick_rate::TickRateArgs;
 use super::trace_source::traces;
 use crate::atomic_file::IfExists;
+use crate::loops::log::ShownLog;
 use crate::loops::{
     ENGINES, Excess, FrameLimits, FrameTrace, LongFrame, MIN_RUN_S, PACING_METRICS, POLICIES,
     PacingMetric, PolicyCard, RefreshRate, USUAL_LATENCY_MS, trace_card,
@@ -123,6 +124,17 @@ pub(super) struct LoopArgs {
 
     #[command(flatten)]
     table: TableArgs,
+
+    /// The column of the log with the moment that a frame shows, which is a row of its own
+    ///
+    /// A time of any unit, or a position that moves evenly. Below the rows, the loop that comes nearest is named. A clock
+    /// of the frames may then run back.
+    #[arg(long, value_name = "NAME|N", requires = "traces")]
+    shown: Option<String>,
+
+    /// The speed of the column of --shown in units a second [default: fitted]
+    #[arg(long, value_name = "N", value_parser = speed, allow_negative_numbers = true, requires = "shown")]
+    speed: Option<f64>,
 
     #[command(flatten)]
     tick_rate: TickRateArgs,
@@ -226,7 +238,8 @@ pub(super) fn run(args: &LoopArgs) -> Result<(), Error> {
     let limits = args.limits(&policies)?;
     // Ideal loops refuse a clock that is set back.
     let signed = policies.iter().all(|card| card.is_lines());
-    let options = TableOptions { signed, ..args.table.options() };
+    let shown = args.shown.clone();
+    let options = TableOptions { signed, shown, ..args.table.options() };
     let traces = traces(&args.traces, &options, args.display_hz, args.fps)?;
     let format = row_format(&args.out, args.format)?;
     if let Some(plot) = args.plot() {
@@ -263,7 +276,8 @@ pub(super) fn run(args: &LoopArgs) -> Result<(), Error> {
         let until_ns = args.until_ns(&scene, trace);
         let drawn_from_ns = args.plot().map(|_| drawn_from_ns(trace, until_ns));
         let stretch = Stretch { until_ns, drawn_from_ns };
-        for &card in &policies {
+        let log = args.shown.as_ref().and_then(|_| ShownLog::of(trace, args.speed));
+        for card in log.iter().map(|log| log.card).chain(policies.iter().copied()) {
             let spec = LaneSpec::plain(args.method);
             rows.push(measure(
                 &scene,
@@ -278,6 +292,10 @@ pub(super) fn run(args: &LoopArgs) -> Result<(), Error> {
                 return Err(Error::nothing_written());
             }
         }
+        if let Some(log) = &log {
+            advice::print_log(log, trace, scene.tick_hz);
+        }
+        let from = from + usize::from(log.is_some());
         match (args.engine, &rows[from..]) {
             (Some(_), [row]) => engine::print_answer(row, limits),
             (_, rows) => advice::print_advice(rows, args.latency_ms, limits),
@@ -473,6 +491,10 @@ fn long_frame(written: &str) -> Result<LongFrame, String> {
         }
         _ => Err("write clamp:100, replace:200=1 or last:66.7, with times in ms".into()),
     }
+}
+
+fn speed(written: &str) -> Result<f64, String> {
+    number_that(written, |speed| speed != 0.0 && speed.is_finite(), "a speed other than 0")
 }
 
 fn latency(written: &str) -> Result<f64, String> {

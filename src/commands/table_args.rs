@@ -75,6 +75,7 @@ impl TableArgs {
             window_s: [self.start, self.end],
             filter: self.filter.clone(),
             signed: false,
+            shown: None,
             unit: self.unit,
             frame: self.frame_column.clone(),
             clock: self.clock_column.clone(),

@@ -9,6 +9,7 @@
 mod advice;
 mod engines;
 mod hitch;
+pub mod log;
 pub mod loop_lab;
 mod loop_run;
 mod metrics;
@@ -17,6 +18,7 @@ mod pacer;
 mod patterns;
 mod policies;
 mod policy;
+mod replay;
 mod scripted_truth;
 mod time_base;
 mod trace;

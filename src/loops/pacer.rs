@@ -2,6 +2,7 @@
 
 use super::policies::lines::Lines;
 use super::policy::{Build, Excess, FrameLimits, LongFrame, Policy, PolicyCard, Steps};
+use super::replay::Replay;
 use super::time_base::TimeBase;
 use crate::run::race::Interpolation;
 
@@ -35,6 +36,7 @@ impl Pacer {
     pub fn limited(card: &'static PolicyCard, base: TimeBase, limits: FrameLimits) -> Self {
         let policy = match card.build {
             Build::Rust(build) => build(base, limits),
+            Build::Replay(moments_ms) => Box::new(Replay::new(moments_ms, base)),
             Build::Lines(text) => Box::new(Lines::new(text, base, limits)),
         };
         let longest = limits.max_frame_ms.map(|ms| base.nanoseconds(i64::from(ms) * 1_000_000));
@@ -92,7 +94,7 @@ impl Pacer {
     /// Decides on the steps of a frame like [`frame`](Self::frame). A loop of lines takes its duration in milliseconds,
     /// which may be negative.
     pub fn frame_in_ms(&mut self, duration_ns: i64, ms: f64) -> Steps {
-        if self.card.is_lines() {
+        if self.card.is_lines() || self.card.is_log() {
             let duration = self.base.nanoseconds(duration_ns);
             let steps = self.policy.frame_in_ms(duration, ms);
             self.passed += duration;

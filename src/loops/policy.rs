@@ -163,9 +163,16 @@ pub struct Engine {
 pub(super) enum Build {
     Rust(fn(TimeBase, FrameLimits) -> Box<dyn Policy>),
     Lines(&'static LoopText),
+    /// The moments of a log, in milliseconds.
+    Replay(&'static [f64]),
 }
 
 impl PolicyCard {
+    /// Whether the loop replays a log.
+    pub fn is_log(&self) -> bool {
+        matches!(self.build, Build::Replay(_))
+    }
+
     /// Whether the loop is lines, which may be given times below 0.
     pub fn is_lines(&self) -> bool {
         matches!(self.build, Build::Lines(_))

@@ -30,6 +30,8 @@ pub struct FrameTrace {
     lead_ns: Option<i64>,
     /// Duration of each frame in milliseconds as the log prints it, if the log counts the first.
     exact_ms: Arc<[f64]>,
+    /// The moment that each frame shows, as the log prints it; empty if it has none.
+    shown: Arc<[f64]>,
     /// The rows of the log that were taken; empty for a pattern.
     taken: Taken,
 }
@@ -93,6 +95,7 @@ impl FrameTrace {
             format: String::new(),
             lead_ns: None,
             exact_ms: Arc::new([]),
+            shown: Arc::new([]),
             taken: Taken::default(),
         }
     }
@@ -106,8 +109,18 @@ impl FrameTrace {
         let source = Source::Pattern(Box::new(pattern));
         let (clocks, format) = (Clocks::One, String::new());
         let taken = Taken::default();
-        let exact_ms = Arc::new([]);
-        Self { name: name.into(), refresh, source, clocks, format, lead_ns: None, exact_ms, taken }
+        let [exact_ms, shown]: [Arc<[f64]>; 2] = [Arc::new([]), Arc::new([])];
+        Self {
+            name: name.into(),
+            refresh,
+            source,
+            clocks,
+            format,
+            lead_ns: None,
+            exact_ms,
+            shown,
+            taken,
+        }
     }
 
     /// Returns the name of the trace.
@@ -185,6 +198,14 @@ impl FrameTrace {
             }
         }
         Self { lead_ns: Some(lead_ns), exact_ms: exact_ms.into(), ..self }
+    }
+    /// Returns the same frames, with the moments that they show.
+    pub(super) fn with_shown(self, shown: Vec<f64>) -> Self {
+        Self { shown: shown.into(), ..self }
+    }
+    /// Returns the moments that the frames show, as the log prints them; empty if no column of them was named.
+    pub fn shown(&self) -> &[f64] {
+        &self.shown
     }
     /// Whether the first frame has a duration, which counts from the start of the trace, so that a list of five times
     /// is five frames.

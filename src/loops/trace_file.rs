@@ -14,9 +14,10 @@ mod android;
 mod capture_json;
 mod columns;
 mod durations;
+mod names;
 mod stream;
 
-use std::collections::{HashMap, HashSet};
+use std::collections::HashMap;
 use std::io::Read as _;
 
 use csv::{ByteRecord, StringRecord};
@@ -24,6 +25,7 @@ use csv::{ByteRecord, StringRecord};
 use super::trace::{ClockConflict, FrameTrace};
 use columns::{Cells, Columns};
 use durations::Unreadable;
+use names::names;
 use stream::Stream;
 
 use crate::sim::number::significant;
@@ -58,7 +60,7 @@ enum Fault {
     #[error("{0}")]
     Unreadable(String),
     #[error(
-        "no column \"{name}\"; here are {found}; name one with --frame-column or --clock-column"
+        "no column \"{name}\"; here are {found}; name one with --frame-column, --clock-column or --shown"
     )]
     NoColumn { name: String, found: String },
     #[error(
@@ -351,7 +353,8 @@ fn read_in(
     let found = match options.unit {
         Some(Unit::Ticks) => Err(Fault::InTicks),
         _ if is_of_afterburner(bytes) => Err(Fault::Afterburner),
-        _ => Columns::choose(&header, &survey, options),
+        _ => Columns::choose(&header, &survey, options)
+            .and_then(|columns| columns.showing(&header, options)),
     };
     let columns = found.map_err(|fault| at(header_line, fault))?;
     let course = survey.courses.get(columns.began_at()).cloned().unwrap_or_default();
@@ -431,7 +434,7 @@ fn read_in(
             let ns = if moment.is_of_calendar { 1.0 } else { in_unit.ns() };
             let since_ns = (moment.since(*first.get_or_insert(moment)) * ns).round() as i64;
             let step_ns = since_ns.saturating_sub(*elapsed_ns);
-            if step_ns < 0 {
+            if step_ns < 0 && options.shown.is_none() {
                 return Err(at(line, Fault::TimeRunsBack));
             }
             if step_ns == 0 && !is_first && columns.is_list() {
@@ -562,39 +565,4 @@ fn head(bytes: &[u8]) -> String {
 fn is_of_afterburner(bytes: &[u8]) -> bool {
     let head = head(bytes);
     head.trim_start().starts_with("00,") && head.contains("Hardware monitoring")
-}
-
-/// Returns a unique name for each stream.
-fn names(name: &str, streams: &[Stream]) -> Vec<String> {
-    if streams.len() == 1 {
-        return vec![name.into()];
-    }
-    let mut programs = HashMap::<&str, usize>::new();
-    for stream in streams {
-        *programs.entry(stream.application()).or_default() += 1;
-    }
-    let mut taken = HashSet::new();
-    let mut labels = HashMap::<String, usize>::new();
-    let unique = |stream: &Stream| {
-        let (program, process) = (stream.application(), stream.process());
-        let known: Vec<&str> = [program, process].into_iter().filter(|s| !s.is_empty()).collect();
-        let alone = programs[program] == 1 && !program.is_empty();
-        let label = match known[..] {
-            [] => "stream".to_owned(),
-            _ if alone => program.to_owned(),
-            _ => known.join("-"),
-        };
-        let count = labels.entry(label.clone()).or_default();
-        loop {
-            *count += 1;
-            let numbered = match *count {
-                1 => format!("{name}:{label}"),
-                n => format!("{name}:{label}-{n}"),
-            };
-            if taken.insert(numbered.clone()) {
-                return numbered;
-            }
-        }
-    };
-    streams.iter().map(unique).collect()
 }

@@ -17,6 +17,8 @@ pub struct TableOptions {
     pub window_s: [Option<f64>; 2],
     /// Column and cell of the rows to take. A row needs all of them.
     pub filter: Vec<(String, String)>,
+    /// Column of the moment that a frame shows.
+    pub shown: Option<String>,
     /// Whether times of frames may be negative, as a clock that is set back gives them.
     pub signed: bool,
     /// Unit of the times.

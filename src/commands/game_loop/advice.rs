@@ -2,8 +2,10 @@
 
 use super::measured::Measured;
 use crate::commands::terminal::print_status;
-use crate::loops::{FrameLimits, MeasuredLoops, NoLoop, POLICIES};
-use crate::sim::number::{counted, round};
+use crate::loops::log::ShownLog;
+use crate::loops::{FrameLimits, FrameTrace, MeasuredLoops, NoLoop, POLICIES};
+use crate::sim::TickRate;
+use crate::sim::number::{counted, round, significant};
 
 /// Prints which of the policies to take that were measured on one trace.
 pub(super) fn print_advice(rows: &[Measured], latency_ms: f64, limits: FrameLimits) {
@@ -62,6 +64,16 @@ pub(super) fn print_advice(rows: &[Measured], latency_ms: f64, limits: FrameLimi
             "  at half the frame rate the motion differs by up to (amplitudes): {listed}"
         ));
     }
+}
+
+/// Prints how the moments of a log were taken, and the loop that comes nearest to them.
+pub(super) fn print_log(log: &ShownLog, trace: &FrameTrace, tick_hz: TickRate) {
+    let nearest = log.nearest(trace, tick_hz).map(|nearest| {
+        let at = nearest.tick_hz.map_or(String::new(), |hz| format!(" at {hz} ticks a second"));
+        format!("as {}{at}, {} ms RMS", nearest.card.id, significant(nearest.rms_ms, 3))
+    });
+    let nearest = nearest.unwrap_or("as no loop that is known".into());
+    print_status(&format!("{} log: {nearest}; {}", trace.name(), log.taken));
 }
 
 /// Describes a policy by its measurements, and by its constants or the limits that replace them.

@@ -160,6 +160,8 @@ pub(super) struct Columns {
     frame_type: Option<usize>,
     application: Option<usize>,
     process: Option<usize>,
+    /// The moment that a frame shows.
+    shown: Option<Column>,
     swap_chain: Option<usize>,
 }
 
@@ -218,6 +220,8 @@ pub(super) struct Cells<'a> {
     pub(super) swap_chain: &'a str,
     /// Direction in which the two times below count.
     pub(super) span: Span,
+    /// The moment that the frame shows, as printed.
+    pub(super) shown_as: Option<f64>,
     /// The same time in milliseconds, never rounded.
     pub(super) began_ms: Option<f64>,
     /// Time between the beginnings of two frames, in nanoseconds. A missing time is an error only where it is needed.
@@ -301,6 +305,7 @@ impl Columns {
             application: index("Application"),
             process: index("ProcessID"),
             swap_chain: index("SwapChainAddress"),
+            shown: None,
         })
     }
 
@@ -322,6 +327,7 @@ impl Columns {
             application: None,
             process: None,
             swap_chain: None,
+            shown: None,
         }
     }
 
@@ -383,6 +389,21 @@ impl Columns {
         }
     }
 
+    /// Returns the same columns with that of the moment which a frame shows, if the options name one.
+    pub(super) fn showing(
+        self,
+        header: &StringRecord,
+        options: &TableOptions,
+    ) -> Result<Self, Fault> {
+        let Some(name) = options.shown.as_deref() else { return Ok(self) };
+        let found = crate::table::column(header.as_byte_record(), name);
+        let index = found.ok_or_else(|| Fault::NoColumn {
+            name: clip(name),
+            found: clip_list(header.iter().map(str::trim)),
+        })?;
+        Ok(Self { shown: Some(Column { index, name: name.trim().to_owned() }), ..self })
+    }
+
     /// Whether the columns may be those of a header, so that it is the one of the table.
     pub(super) fn may_be_of(header: &StringRecord, options: &TableOptions) -> bool {
         let named = [options.frame.as_deref(), options.time()].into_iter().flatten().next();
@@ -395,7 +416,8 @@ impl Columns {
     /// Returns the columns that are read, by their index.
     pub(super) fn used(&self) -> Vec<usize> {
         let columns = [Some(&self.began), self.displayed.as_ref(), self.dropped.as_ref()];
-        let columns = columns.into_iter().flatten().map(|column| column.index);
+        let columns = columns.into_iter().chain([self.shown.as_ref()]);
+        let columns = columns.flatten().map(|column| column.index);
         let texts = [self.frame_type, self.application, self.process, self.swap_chain, self.until];
         let times = [self.fps, self.time.map(|(index, ..)| index)];
         columns.chain(texts.into_iter().chain(times).flatten()).collect()
@@ -490,7 +512,15 @@ impl Columns {
             let cell = row.get(index?)?.trim().replace(',', ".");
             cell.parse::<f64>().ok().filter(|number| number.is_finite())
         };
+        let shown_as = match &self.shown {
+            Some(Column { index, name }) => Some(number(Some(*index)).ok_or_else(|| {
+                let cell = clip(row.get(*index).unwrap_or_default());
+                Fault::Cell { column: name.clone(), fault: Unreadable::NotANumber(cell) }
+            })?),
+            None => None,
+        };
         Ok(Cells {
+            shown_as,
             application: text(self.application),
             process: text(self.process),
             swap_chain: text(self.swap_chain),

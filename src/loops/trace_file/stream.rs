@@ -16,6 +16,8 @@ pub(super) struct Stream {
     frames: Vec<Frame>,
     /// Duration of each frame before it began, in milliseconds and never rounded.
     exact_ms: Vec<f64>,
+    /// The moment that each frame shows, if the log has it.
+    shown_as: Vec<f64>,
     /// Time when the last displayed frame appeared, in nanoseconds.
     last_shown_ns: Option<i64>,
     /// Times when the next frame begins and appears, in logs whose rows record how long their own frame lasted and
@@ -46,6 +48,7 @@ impl Stream {
             line,
             frames: Vec::new(),
             exact_ms: Vec::new(),
+            shown_as: Vec::new(),
             last_shown_ns: None,
             next_began_ns: Ok(0),
             next_shown_ns: 0,
@@ -111,6 +114,7 @@ impl Stream {
         let before_ns = self.frames.last().map_or(0, |last| last.began_ns);
         let rounded_ms = (frame.began_ns - before_ns) as f64 / 1e6;
         self.exact_ms.push(cells.began_ms.unwrap_or(rounded_ms));
+        self.shown_as.extend(cells.shown_as);
         self.frames.push(frame);
         self.generated_ns = 0;
         Ok(())
@@ -201,6 +205,7 @@ impl Stream {
             }
         }
         let trace = FrameTrace::recorded(name, nominal_refresh(&self.frames), self.frames);
+        let trace = trace.with_shown(self.shown_as);
         match parting {
             Some(parting) => trace.with_conflicting_clocks(parting),
             None => trace,

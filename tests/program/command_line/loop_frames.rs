@@ -155,3 +155,41 @@ fn a_loop_of_lines_takes_times_below_0_and_settings() {
     let shown = run_in(folder.path(), "show mine.loop --as step");
     assert_eq!(shown.stdout, fs::read(folder.path().join("mine.loop")).unwrap());
 }
+
+#[test]
+fn a_column_of_moments_is_a_row_beside_the_loop_that_it_resembles() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = |name: &str, text: &str| fs::write(folder.path().join(name), text).unwrap();
+    let measured = |options: &str| {
+        let output =
+            run_in(folder.path(), &format!("loop {options} --policy variable --format json"));
+        assert_eq!(output.status.code(), Some(0), "{options}: {}", stderr(&output));
+        let rows: Vec<serde_json::Value> = serde_json::from_slice(&output.stdout).unwrap();
+        (rows, stderr(&output))
+    };
+    // Every tenth picture shows a moment that is 5 ms late.
+    let late = |n: u32| if n % 10 == 9 { 0.005 } else { 0.0 };
+    let rows = (0..300).map(|n| format!("{n},0.01,{}\n", 0.01 * f64::from(n + 1) - late(n)));
+    at("visual.csv", &format!("frame,deltaTime,visualTime\n{}", rows.collect::<String>()));
+    let (rows, told) = measured("--trace visual.csv --shown visualTime");
+    assert_eq!((rows.len(), &rows[0]["policy"]), (2, &serde_json::json!("log")));
+    near(&rows[0], "animation_error_rms_ms", 5.0 * (0.2_f64 * 299.0 / 300.0).sqrt());
+    near(&rows[0], "animation_error_max_ms", 5.0);
+    near(&rows[0], "speed_percent", 100.0 * 2995.0 / 3000.0);
+    assert!(told.contains("shown is a clock in s"), "{told}");
+    // A position that moves by 2 in each of 64 ticks a second, drawn raw at 144 Hz.
+    let rows = (0..1440).map(|n| format!("{},{}\n", f64::from(n) / 0.144, 2 * (n * 64 / 144)));
+    at("x.csv", &format!("t_ms,x\n{}", rows.collect::<String>()));
+    for speed in ["", "--speed 128"] {
+        let (rows, told) = measured(&format!("--trace x.csv --shown x {speed}"));
+        assert!(told.contains("x.csv log: as fixed at 64 ticks a second, "), "{told}");
+        assert!((number(&rows[0], "repeated_percent") - 55.6).abs() < 0.2, "{}", rows[0]);
+    }
+    at("back.csv", "t_ms,x\n0,0\n16,16\n10,10\n33,33\n50,50\n");
+    let (rows, _) = measured("--trace back.csv --clock-column t_ms --shown x");
+    near(&rows[0], "backward_frames", 1.0);
+    let refused = run_in(folder.path(), "loop --trace back.csv --clock-column t_ms");
+    assert!(stderr(&refused).contains("put rows in order"), "{}", stderr(&refused));
+    let refused = run_in(folder.path(), "loop --trace x.csv --shown y");
+    assert!(stderr(&refused).contains("no column \"y\""), "{}", stderr(&refused));
+}
