@@ -265,8 +265,10 @@ pub(super) fn run(args: &LoopArgs) -> Result<(), Error> {
         None => None,
     };
     #[cfg(feature = "view")]
-    let plot =
-        args.plot().map(|path| Plot::open(to(path, "--plot"), diagram::charts(traces.len())));
+    let plot = args.plot().map(|path| {
+        let charts = diagram::charts(traces.len());
+        Plot::open_grid(to(path, "--plot"), charts, diagram::CHARTS)
+    });
     #[cfg(feature = "view")]
     let plot = plot.transpose()?;
 

@@ -6,8 +6,8 @@
 use std::sync::Arc;
 
 use super::{
-    AdvisedLoop, FrameTrace, LoopVerdict, MeasuredLoops, NoLoop, POLICIES, PolicyCard, RefreshRate,
-    TRACES, TraceCard, USUAL_LATENCY_MS,
+    AdvisedLoop, ENGINES, FrameTrace, LoopVerdict, MeasuredLoops, NoLoop, POLICIES, PolicyCard,
+    RefreshRate, TRACES, TraceCard, USUAL_LATENCY_MS,
 };
 use crate::run::race::LaneBody;
 use crate::scene::Scene;
@@ -45,6 +45,8 @@ pub enum LoopCommand {
     ToggleLab,
     /// Selects the loop with this index in [`POLICIES`] and puts it on the stage.
     Select(usize),
+    /// Runs the engine with this index in [`ENGINES`] beside the loops, and puts it on the stage.
+    Engine(usize),
     /// Takes the loop with this index off the stage or, if it is not there, puts it on the stage.
     ToggleOnStage(usize),
     /// Chooses the trace with this index.
@@ -67,6 +69,8 @@ pub struct LoopLab {
     /// The request to run all loops.
     request: Arc<LoopRequest>,
     lanes: Vec<LoopLane>,
+    /// The chosen engine, whose lane is the last.
+    engine: Option<&'static PolicyCard>,
     /// The recommended loop or, if there is none, the reason; `None` until all loops have run.
     advice: Option<Result<AdvisedLoop, NoLoop>>,
     /// Range of the exact first coordinate.
@@ -102,12 +106,19 @@ impl LoopLab {
         let trace = traces[0].clone();
         let mut studio = Self {
             body: at_start(&scene),
-            request: Arc::new(LoopRequest { scene: scene.clone(), method, trace, first: vec![] }),
+            request: Arc::new(LoopRequest {
+                scene: scene.clone(),
+                method,
+                trace,
+                first: vec![],
+                engine: None,
+            }),
             scene,
             method,
             traces,
             trace: 0,
             lanes: Vec::new(),
+            engine: None,
             advice: None,
             range: [0.0; 2],
             selected: 0,
@@ -155,8 +166,9 @@ impl LoopLab {
             method: self.method,
             trace: self.traces[self.trace].clone(),
             first: self.on_stage.clone(),
+            engine: self.engine,
         });
-        self.lanes = POLICIES.iter().map(LoopLane::awaited).collect();
+        self.lanes = POLICIES.iter().chain(self.engine).map(LoopLane::awaited).collect();
         self.advice = None;
         self.end_ns = 0;
         self.range = [f64::INFINITY, f64::NEG_INFINITY];
@@ -197,7 +209,9 @@ impl LoopLab {
 
     /// Returns all measured loops; `None` until all have run.
     fn measured(&self) -> Option<MeasuredLoops<'_>> {
-        let measured = self.lanes.iter().map(|lane| Some((lane.card(), lane.report()?)));
+        // An engine's loop is not advised to a game that has another.
+        let measured =
+            self.lanes.iter().take(POLICIES.len()).map(|lane| Some((lane.card(), lane.report()?)));
         let measured: Vec<_> = measured.collect::<Option<_>>()?;
         let trace = &self.traces[self.trace];
         let (refresh, has_one_clock) = (trace.refresh(), trace.has_one_clock());
@@ -238,7 +252,22 @@ impl LoopLab {
     pub fn trace(&self) -> usize {
         self.trace
     }
-    /// Returns the lanes of all loops, in the order of [`POLICIES`].
+    /// Returns the chosen engine.
+    pub fn engine(&self) -> Option<&'static PolicyCard> {
+        self.engine
+    }
+
+    /// Runs the engine with this index in [`ENGINES`] beside the loops, and puts it on the stage.
+    pub fn choose_engine(&mut self, index: usize) {
+        let Some(card) = ENGINES.get(index) else { return };
+        self.engine = Some(card);
+        self.lanes.truncate(POLICIES.len());
+        self.lanes.push(LoopLane::awaited(card));
+        self.select(POLICIES.len());
+        self.request_loops();
+    }
+
+    /// Returns the lanes of all loops, in the order of [`POLICIES`], and then that of the chosen engine.
     pub fn lanes(&self) -> &[LoopLane] {
         &self.lanes
     }
@@ -257,12 +286,13 @@ impl LoopLab {
     fn best(&self) -> Option<usize> {
         self.advice?.map_or_else(NoLoop::nearest, |advised| Some(advised.index))
     }
-    /// Returns the order of the lanes in the list. The recommended loop or the one nearest to a recommendation comes
-    /// first, then the others in the order of [`POLICIES`].
+    /// Returns the order of the lanes in the list. The chosen engine comes first, then the recommended loop or the one
+    /// nearest to a recommendation, then the others in the order of [`POLICIES`].
     pub fn listed(&self) -> Vec<usize> {
-        let first = self.best();
-        let others = (0..self.lanes.len()).filter(|index| Some(*index) != first);
-        first.into_iter().chain(others).collect()
+        let mut first: Vec<usize> = self.engine.map(|_| POLICIES.len()).into_iter().collect();
+        first.extend(self.best());
+        let others = (0..self.lanes.len()).filter(|index| !first.contains(index));
+        first.iter().copied().chain(others).collect()
     }
     /// Returns a text to show instead of the plots until every loop on the stage has run.
     pub fn waiting(&self) -> Option<&'static str> {

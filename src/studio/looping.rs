@@ -231,6 +231,7 @@ pub(super) fn change_loop_lab(studio: &mut Studio, command: LoopCommand) {
     match command {
         LoopCommand::ToggleLab => drop(leave_loop_lab(studio)),
         LoopCommand::Select(index) => loops.select(index),
+        LoopCommand::Engine(index) => loops.choose_engine(index),
         LoopCommand::ToggleOnStage(index) => loops.toggle(index),
         LoopCommand::Trace(index) => loops.choose_trace(index),
         LoopCommand::Slowness(slowness) => loops.set_slowness(slowness),

@@ -172,3 +172,16 @@ fn a_constant_of_an_engine_can_be_set() {
     let (name, known) = babylon.with_settings(&[("most".into(), 1.0)]).unwrap_err();
     assert!(name == "most" && known.contains(&"max_ticks".to_owned()), "{known:?}");
 }
+
+#[test]
+fn the_manual_lists_every_engine_and_its_own_loop_runs() {
+    let manual = regatta::manual::chapter("loops").unwrap().text;
+    for card in ENGINES.iter() {
+        let (version, caveat) = card.engine.map(|it| (it.version, it.caveat)).unwrap();
+        let row = format!("| `{}` | {version} | {} | {caveat} |", card.id, card.formula);
+        assert!(manual.contains(&row), "write into src/manual/loops.md:\n{row}");
+    }
+    let (_, text) = manual.split_once("```text\n").unwrap();
+    let (text, _) = text.split_once("```").unwrap();
+    assert_eq!(ticks(text, &[20.0, 20.0, 500.0, 1.0, 1.0]), [1, 1, 8, 1, 0]);
+}

@@ -6,6 +6,8 @@ use crate::scene::Scene;
 use crate::sim::number::round;
 use crate::view::{Axis, AxisScale, Chart, Figure, FigureCurve, Legend};
 
+/// Number of charts of a trace.
+pub(super) const CHARTS: usize = 3;
 /// Maximum number of traces in a picture.
 const MAX_TRACES: usize = 4;
 
@@ -20,10 +22,10 @@ const EXPLAINED: &str = "Animation error is the change of the moment shown minus
 const MAX_LATENCY_MS: f64 = 200.0;
 
 pub(super) fn charts(traces: usize) -> usize {
-    2 * traces.min(MAX_TRACES)
+    CHARTS * traces.min(MAX_TRACES)
 }
 
-/// Returns the picture of `rows`, which are grouped by trace. Each of the first traces has two charts.
+/// Returns the picture of `rows`, which are grouped by trace. Each of the first traces has a row of charts.
 pub(super) fn figure(scene: &Scene, rows: &[Measured]) -> Figure {
     let mut by_trace: Vec<&[Measured]> =
         rows.chunk_by(|one, other| one.trace == other.trace).collect();
@@ -37,9 +39,9 @@ pub(super) fn figure(scene: &Scene, rows: &[Measured]) -> Figure {
     let several = by_trace.len() > 1;
     let charts = by_trace.iter().flat_map(|rows| {
         let before = if several { format!("{}: ", rows[0].trace) } else { String::new() };
-        [chart_of_moments(rows, &before), costs(rows, &before)]
+        [chart_of_moments(rows, &before), costs(rows, &before), game_time(rows, &before)]
     });
-    Figure { title, note, columns: 2, charts: charts.collect() }
+    Figure { title, note, columns: CHARTS, charts: charts.collect() }
 }
 
 fn curve(index: usize, row: &Measured, dots: f32, points: Vec<[f64; 2]>) -> FigureCurve {
@@ -75,6 +77,34 @@ fn chart_of_moments(rows: &[Measured], before: &str) -> Chart {
         axes: [
             Axis { name: "moment of display (ms)", view: [start, end], scale: AxisScale::Linear },
             Axis { name: "moment shown (ms)", view: [least, end], scale: AxisScale::Linear },
+        ],
+        curves: [ideal].into_iter().chain(curves).collect(),
+    }
+}
+
+/// Returns the chart of game time over real time around the longest frame. Slow motion is flatter than the diagonal,
+/// fast-forward is steeper, and a jump is a step.
+fn game_time(rows: &[Measured], before: &str) -> Chart {
+    let along = rows.iter().flat_map(|row| &row.paced).map(|point| point[0]);
+    let start = along.clone().reduce(f64::min).unwrap_or(0.0);
+    let end = along.fold(start + 1.0, f64::max);
+    let game = rows.iter().flat_map(|row| &row.paced).map(|point| point[1]);
+    let span = [start, end];
+    let view = game.fold(span, |[least, most], ms| [least.min(ms), most.max(ms)]);
+    let ideal = FigureCurve {
+        name: "the moment of display".into(),
+        colour: Theme::Dark.palette().text,
+        dash: [1.0, 0.0],
+        dots: 0.0,
+        points: vec![[start; 2], [end; 2]],
+    };
+    let curves = rows.iter().enumerate().map(|(n, row)| curve(n, row, 0.0, row.paced.clone()));
+    Chart {
+        title: sentence(before, "game time over real time"),
+        legend: Legend::Shared,
+        axes: [
+            Axis { name: "real time (ms)", view: span, scale: AxisScale::Linear },
+            Axis { name: "game time (ms)", view, scale: AxisScale::Linear },
         ],
         curves: [ideal].into_iter().chain(curves).collect(),
     }

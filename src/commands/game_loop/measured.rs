@@ -15,6 +15,8 @@ use crate::sim::TickRate;
 /// Number of frames in the picture of a run, and number of frames before a long one.
 const DRAWN: usize = 30;
 const BEFORE: usize = 8;
+/// Real time of the picture of game time, in milliseconds.
+const PACED_MS: f64 = 3000.0;
 /// Minimum duration of a long frame, in refreshes of the display.
 const LONG: f64 = 2.5;
 /// Maximum number of frames that are searched for a long one.
@@ -34,6 +36,8 @@ pub(super) struct Measured {
     pub(super) report: PacingReport,
     /// Moment of display, and displayed moment, of each drawn frame, in milliseconds.
     pub(super) drawn: Vec<[f64; 2]>,
+    /// Real time and game time of each frame around the drawn ones, in milliseconds.
+    pub(super) paced: Vec<[f64; 2]>,
 }
 
 /// The part of a trace that is measured.
@@ -56,7 +60,7 @@ pub(super) fn measure(
     stop: &dyn Fn() -> bool,
     mut frames: Option<&mut RowWriter<Output>>,
 ) -> io::Result<Measured> {
-    let (mut drawn, mut written) = (Vec::new(), Ok(()));
+    let (mut drawn, mut paced, mut written) = (Vec::new(), Vec::<[f64; 2]>::new(), Ok(()));
     let name = trace.name();
     let run = LoopRun::limited(scene, spec, card, trace, limits);
     let report = run.measure(until_ns, stop, |run, record| {
@@ -65,6 +69,12 @@ pub(super) fn measure(
             && drawn.len() <= DRAWN
         {
             drawn.push([displayed_ns as f64 / 1e6, record.shown_ms]);
+        }
+        if drawn_from_ns.is_some_and(|from_ns| record.frame.began_ns >= from_ns)
+            && paced.first().is_none_or(|[first, _]| began_ms(record) - first <= PACED_MS)
+        {
+            let pacer = run.lane().pacer();
+            paced.push([began_ms(record), pacer.base().milliseconds(pacer.simulated())]);
         }
         if let (Some(frames), Ok(())) = (&mut frames, &written) {
             written = frames.row(&row(name, card, run, record));
@@ -82,7 +92,12 @@ pub(super) fn measure(
         missing_display,
         report,
         drawn,
+        paced,
     })
+}
+
+fn began_ms(record: &FrameRecord) -> f64 {
+    record.frame.began_ns as f64 / 1e6
 }
 
 fn row(trace: &str, card: &PolicyCard, run: &LoopRun, record: &FrameRecord) -> [Value; 12] {

@@ -5,7 +5,7 @@ use std::collections::VecDeque;
 use std::sync::Arc;
 
 use super::lane::LoopLane;
-use crate::loops::{FrameTrace, POLICIES};
+use crate::loops::{FrameTrace, POLICIES, PolicyCard};
 use crate::scene::Scene;
 use crate::sim::integrators::Method;
 
@@ -17,13 +17,19 @@ pub struct LoopRequest {
     pub(super) trace: FrameTrace,
     /// Indices of the loops in [`POLICIES`] that run first.
     pub(super) first: Vec<usize>,
+    /// The engine that runs beside them.
+    pub(super) engine: Option<&'static PolicyCard>,
 }
 
 impl LoopRequest {
+    fn all(&self) -> std::ops::Range<usize> {
+        0..POLICIES.len() + usize::from(self.engine.is_some())
+    }
+
     /// Returns the indices of all loops, in the order of their runs.
     fn indices(&self) -> VecDeque<usize> {
         let is_first = |index: &usize| self.first.contains(index);
-        let (first, others): (VecDeque<_>, VecDeque<_>) = (0..POLICIES.len()).partition(is_first);
+        let (first, others): (VecDeque<_>, VecDeque<_>) = self.all().partition(is_first);
         first.into_iter().chain(others).collect()
     }
 }
@@ -60,8 +66,9 @@ impl LoopWorker {
     /// same loop again.
     pub fn work(&mut self, stop: &dyn Fn() -> bool) -> Option<FoundLoop> {
         let (request, index) = (self.request.as_ref()?, *self.left.front()?);
-        let LoopRequest { scene, method, trace, .. } = &**request;
-        let lane = LoopLane::run(scene, method, &POLICIES[index], trace, stop);
+        let LoopRequest { scene, method, trace, engine, .. } = &**request;
+        let card = POLICIES.get(index).or(*engine)?;
+        let lane = LoopLane::run(scene, method, card, trace, stop);
         if stop() {
             return None;
         }

@@ -307,3 +307,24 @@ fn the_loop_lab_shields_the_run_behind_it_from_every_command() {
         assert_eq!(notice, "not in the loop lab: L leaves it", "{command:?}");
     }
 }
+
+#[test]
+fn an_engine_runs_beside_the_loops_and_is_not_advised() {
+    let mut studio = studio();
+    let advised = studio.advised();
+    for id in ["bevy", "phaser"] {
+        let index = crate::loops::ENGINES.iter().position(|card| card.id == id).unwrap();
+        studio.choose_engine(index);
+        assert!(!studio.is_complete() && studio.lanes().len() == POLICIES.len() + 1);
+        run(&mut studio);
+        let lane = &studio.lanes()[studio.listed()[0]];
+        assert_eq!((lane.card().id, studio.selected_card().id), (id, id));
+        assert!(lane.frames().len() > 100 && studio.on_stage().contains(&POLICIES.len()));
+        assert_eq!(studio.advised(), advised);
+    }
+    studio.choose_trace(1);
+    run(&mut studio);
+    assert_eq!(studio.lanes().last().unwrap().card().id, "phaser");
+    studio.choose_engine(1000);
+    assert_eq!(studio.engine().unwrap().id, "phaser");
+}

@@ -51,6 +51,9 @@ fn show_lab(ui: &mut Ui, loops: &LoopLab, room: Vec2, commands: &mut Vec<Command
         if !controls::has_trace_menu_above(ui) {
             controls::trace_menu(ui, loops, commands);
         }
+        if room.x >= breakpoints::TITLE_OF_LOOP_LAB {
+            controls::engine_menu(ui, loops, commands);
+        }
     });
     legend::show(ui, &legend_entries(loops, &lanes, palette(ui)));
     if let Some(waiting) = loops.waiting() {

@@ -2,7 +2,6 @@
 
 use egui::Color32;
 
-use crate::loops::POLICIES;
 use crate::loops::loop_lab::LoopLab;
 use crate::run::race::Mode;
 use crate::studio::{Studio, digit_of, shown_s};
@@ -75,7 +74,8 @@ impl SeriesStyles {
 
     fn of_loops(studio: &Studio, loops: &LoopLab) -> Self {
         let palette = palette_of(studio.display().theme);
-        let series = POLICIES.iter().enumerate().map(|(index, card)| {
+        let series = loops.lanes().iter().enumerate().map(|(index, lane)| {
+            let card = lane.card();
             let (rgba, dash) = palette.theme.loop_style(index);
             SeriesStyle { id: card.id.into(), name: card.name.into(), colour: colour(rgba), dash }
         });

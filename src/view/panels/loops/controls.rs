@@ -4,7 +4,7 @@
 use egui::{ComboBox, RichText, TextWrapMode, Ui};
 
 use crate::loops::loop_lab::{LoopCommand, LoopLab, SLOWNESS};
-use crate::loops::{FrameTrace, TRACES};
+use crate::loops::{ENGINES, FrameTrace, TRACES};
 use crate::stage::number::round;
 use crate::studio::Command;
 use crate::view::panels::breakpoints;
@@ -87,6 +87,28 @@ pub(in crate::view::panels) fn trace_menu(
     });
     let about = format!("{chosen}, frames of the display (T for the next): {}", about_trace(trace));
     response.response.on_hover_text(about);
+}
+
+/// Shows the menu of engines, each with its version and what to beware of.
+pub(in crate::view::panels) fn engine_menu(
+    ui: &mut Ui,
+    loops: &LoopLab,
+    commands: &mut Vec<Command>,
+) {
+    let chosen = loops.engine().map_or("your engine", |card| card.id);
+    let menu = ComboBox::from_id_salt("engine").selected_text(short_name(chosen)).width(112.0);
+    let response = menu.height(480.0).show_ui(ui, |ui| {
+        ui.style_mut().wrap_mode = Some(TextWrapMode::Extend);
+        for (index, card) in ENGINES.iter().enumerate() {
+            let (Some(engine), is_chosen) = (card.engine, card.id == chosen) else { continue };
+            let text = format!("{} {}", card.name, engine.version);
+            let label = ui.selectable_label(is_chosen, text);
+            if label.on_hover_text(format!("{}; set: {}", engine.caveat, engine.advice)).clicked() {
+                commands.push(Command::Loop(LoopCommand::Engine(index)));
+            }
+        }
+    });
+    response.response.on_hover_text("the loop of your engine beside the others, to the tick");
 }
 
 /// Formats the moment of display, in full or short enough for a narrow bar.
