@@ -82,8 +82,8 @@ Examples:
 pub(super) struct LoopArgs {
     /// A policy, or several [default: the usual ones]
     ///
-    /// `regatta list policies` has them, and `regatta list engine-loops` those of engines. A file that ends in .loop is a
-    /// loop of your own. Give the option again for each, to compare them.
+    /// `regatta list policies` has them, and `regatta list engine-loops` those of engines. A file that ends in .loop is
+    /// a loop of your own. Give the option again for each, to compare them.
     #[arg(long = "policy", value_name = "ID|FILE", value_parser = LoopOrFile, hide_possible_values = true)]
     policies: Vec<&'static PolicyCard>,
 
@@ -127,8 +127,8 @@ pub(super) struct LoopArgs {
 
     /// The column of the log with the moment that a frame shows, which is a row of its own
     ///
-    /// A time of any unit, or a position that moves evenly. Below the rows, the loop that comes nearest is named. A clock
-    /// of the frames may then run back.
+    /// A time of any unit, or a position that moves evenly. Below the rows, the loop that comes nearest is named. A
+    /// clock of the frames may then run back.
     #[arg(long, value_name = "NAME|N", requires = "traces")]
     shown: Option<String>,
 

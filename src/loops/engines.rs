@@ -6,10 +6,10 @@ use super::policy::{Build, Engine, PolicyCard};
 use crate::run::race::Interpolation;
 use crate::sim::law::{ExpressionFault, LoopText};
 
-/// Lists the engines, each with its file in `assets/loops/engines`.
+/// Lists the engines, each with its file in `assets/engine-loops`.
 macro_rules! engines {
     ($($id:literal),+ $(,)?) => {
-        [$(($id, include_str!(concat!("../../assets/loops/engines/", $id, ".loop")))),+]
+        [$(($id, include_str!(concat!("../../assets/engine-loops/", $id, ".loop")))),+]
     };
 }
 

@@ -112,8 +112,8 @@ impl ShownLog {
         candidates.into_iter().find(|it| it.rms_ms <= least_ms + ALIKE_MS)
     }
 
-    /// Returns the RMS difference of a loop's moments from those of the log, without their mean, and the tick rate of an
-    /// engine with fixed ticks.
+    /// Returns the RMS difference of a loop's moments from those of the log, without their mean. The second value is the
+    /// tick rate of an engine with fixed ticks.
     fn difference_ms(
         &self,
         trace: &FrameTrace,
@@ -122,8 +122,8 @@ impl ShownLog {
     ) -> (f64, Option<TickRate>) {
         let mut pacer = Pacer::new(card, base);
         let mut frames = trace.frames();
-        let (mut before_ns, mut off) = (trace.first_counts().then_some(0), Vec::new());
-        if trace.first_counts() && card.is_lines() {
+        let (mut before_ns, mut off) = (trace.lead_ns().map(|lead_ns| -lead_ns), Vec::new());
+        if trace.lead_ns().is_some() && card.is_lines() {
             pacer.frame_in_ms(0, 0.0);
         }
         for shown_ms in self.moments_ms {

@@ -16,7 +16,7 @@ pub const MIN_RUN_S: f64 = 10.0;
 /// A scene under one method in one loop, frame by frame.
 ///
 /// The first frame starts the clock and shows the start, unless the trace
-/// [counts its time](FrameTrace::first_counts). Each later frame makes the steps that the loop decides on.
+/// [counts its time](FrameTrace::lead_ns). Each later frame makes the steps that the loop decides on.
 /// The scene's script acts before the first step at or after its time.
 ///
 /// ```
@@ -42,6 +42,8 @@ pub struct LoopRun {
     script: TimedScript,
     /// Only every n-th frame of the trace is made.
     stride: u32,
+    /// Time from the start of the run to the first frame of the trace, in nanoseconds.
+    lead_ns: i64,
 }
 
 impl LoopRun {
@@ -66,7 +68,7 @@ impl LoopRun {
         let base = TimeBase::new(scene.tick_hz, trace.refresh());
         let lane = Lane::new(scene, spec.solver(), spec.substeps);
         let mut lane = PacedLane::new(Pacer::limited(card, base, limits), lane);
-        if trace.first_counts() && card.is_lines() {
+        if trace.lead_ns().is_some() && card.is_lines() {
             lane.frame(0, 0.0, |_, _, _| {});
         }
         Self {
@@ -75,10 +77,12 @@ impl LoopRun {
             frames: trace.frames(),
             meter: PacingMeter::default(),
             last: trace
-                .first_counts()
+                .lead_ns()
+                .is_some()
                 .then(|| (Frame { began_ns: 0, displayed_ns: None }, Steps::default())),
             script: TimedScript::new(scene),
             stride: 1,
+            lead_ns: trace.lead_ns().unwrap_or_default(),
         }
     }
 
@@ -111,6 +115,8 @@ impl LoopRun {
             frame = self.frames.next(0)?;
             ms += self.frames.duration_ms(frame);
         }
+        frame.began_ns += self.lead_ns;
+        frame.displayed_ns = frame.displayed_ns.map(|ns| ns + self.lead_ns);
         let steps = match self.last {
             None if !self.lane.pacer().card().is_lines() => Steps::default(),
             last => {

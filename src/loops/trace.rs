@@ -26,7 +26,7 @@ pub struct FrameTrace {
     clocks: Clocks,
     /// Name of the tool that wrote the log, and the unit of its times if that was inferred; empty for a pattern.
     format: String,
-    /// Duration of the first frame before it began, in nanoseconds, if the log counts it. All frames are later by it.
+    /// Duration of the first frame before it began, in nanoseconds, if the log counts it.
     lead_ns: Option<i64>,
     /// Duration of each frame in milliseconds as the log prints it, if the log counts the first.
     exact_ms: Arc<[f64]>,
@@ -189,14 +189,8 @@ impl FrameTrace {
     }
     /// Returns the same frames. If the first is counted, these are its nanoseconds from the start of the clock, and the
     /// milliseconds of all frames as the log prints them.
-    pub(super) fn with_lead(mut self, counted: Option<(i64, Vec<f64>)>) -> Self {
+    pub(super) fn with_lead(self, counted: Option<(i64, Vec<f64>)>) -> Self {
         let Some((lead_ns, exact_ms)) = counted else { return self };
-        if let Source::Recorded(frames) = &mut self.source {
-            for frame in Arc::make_mut(frames) {
-                frame.began_ns += lead_ns;
-                frame.displayed_ns = frame.displayed_ns.map(|ns| ns + lead_ns);
-            }
-        }
         Self { lead_ns: Some(lead_ns), exact_ms: exact_ms.into(), ..self }
     }
     /// Returns the same frames, with the moments that they show.
@@ -207,10 +201,10 @@ impl FrameTrace {
     pub fn shown(&self) -> &[f64] {
         &self.shown
     }
-    /// Whether the first frame has a duration, which counts from the start of the trace, so that a list of five times
-    /// is five frames.
-    pub fn first_counts(&self) -> bool {
-        self.lead_ns.is_some()
+    /// Returns the duration of the first frame before it began, in nanoseconds, if the log counts it: a list of five
+    /// times is five frames.
+    pub fn lead_ns(&self) -> Option<i64> {
+        self.lead_ns
     }
     /// Returns a notice about a log whose display times are missing or not used; `None` for any other trace.
     pub fn missing_display(&self) -> Option<&'static str> {

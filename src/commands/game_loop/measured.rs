@@ -127,7 +127,7 @@ pub(super) fn drawn_from_ns(trace: &FrameTrace, until_ns: i64) -> i64 {
     let displayed: Vec<i64> = iter::from_fn(|| frames.next(0))
         .take_while(|frame| frame.began_ns < until_ns)
         .take(MAX_SEARCHED)
-        .filter_map(|frame| frame.displayed_ns)
+        .filter_map(|frame| Some(frame.displayed_ns? + trace.lead_ns().unwrap_or_default()))
         .collect();
     let gaps = displayed.windows(2).map(|pair| pair[1] - pair[0]).enumerate();
     let refresh_ns = 1e9 / trace.refresh().hz();

@@ -15,8 +15,8 @@ const MAX_FUNCTIONS: usize = 16;
 
 /// The functions that a text may `use`.
 const SHARED_STEPS: [(&str, &str); 6] = [
-    ("remainder", include_str!("../../../../../assets/loops/shared/remainder.loop")),
-    ("single", include_str!("../../../../../assets/loops/shared/single.loop")),
+    ("remainder", include_str!("../../../../../assets/engine-loops/shared/remainder.loop")),
+    ("single", include_str!("../../../../../assets/engine-loops/shared/single.loop")),
     ("slope", include_str!("../../../../../assets/methods/shared/slope.step")),
     ("solve", include_str!("../../../../../assets/methods/shared/solve.step")),
     ("steady", include_str!("../../../../../assets/methods/shared/steady.step")),
