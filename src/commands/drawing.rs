@@ -105,16 +105,8 @@ pub(super) struct Plot {
 impl Plot {
     /// Opens the output for a figure of `charts` charts.
     pub(super) fn open(to: Destination<'_>, charts: usize) -> Result<Self, Error> {
-        Self::open_grid(to, charts, columns(charts))
-    }
-
-    /// Opens the output for a figure of `charts` charts in this number of columns.
-    pub(super) fn open_grid(
-        to: Destination<'_>,
-        charts: usize,
-        columns: usize,
-    ) -> Result<Self, Error> {
         let output = to.open()?;
+        let columns = columns(charts);
         let [across, down] = [columns, charts.div_ceil(columns)].map(|number| number as u32);
         let size_px = [across * CHART_PX[0], down * CHART_PX[1] + MARGIN_PX];
         let renderer = OffscreenRenderer::new(size_px, SCALE).map_err(|error| match error {

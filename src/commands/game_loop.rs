@@ -82,8 +82,8 @@ Examples:
 pub(super) struct LoopArgs {
     /// A policy, or several [default: the usual ones]
     ///
-    /// `regatta list policies` has them, and `regatta list engine-loops` those of engines. A file that ends in .loop is
-    /// a loop of your own. Give the option again for each, to compare them.
+    /// `regatta list policies` has them, and `regatta list engine-loops` those of engines. A file that ends in .loop
+    /// is a loop of your own. Give the option again for each, to compare them.
     #[arg(long = "policy", value_name = "ID|FILE", value_parser = LoopOrFile, hide_possible_values = true)]
     policies: Vec<&'static PolicyCard>,
 
@@ -265,10 +265,7 @@ pub(super) fn run(args: &LoopArgs) -> Result<(), Error> {
         None => None,
     };
     #[cfg(feature = "view")]
-    let plot = args.plot().map(|path| {
-        let charts = diagram::charts(traces.len());
-        Plot::open_grid(to(path, "--plot"), charts, diagram::CHARTS)
-    });
+    let plot = args.plot().map(|path| Plot::open(to(path, "--plot"), diagram::room(traces.len())));
     #[cfg(feature = "view")]
     let plot = plot.transpose()?;
 

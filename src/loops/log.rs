@@ -112,8 +112,8 @@ impl ShownLog {
         candidates.into_iter().find(|it| it.rms_ms <= least_ms + ALIKE_MS)
     }
 
-    /// Returns the RMS difference of a loop's moments from those of the log, without their mean. The second value is the
-    /// tick rate of an engine with fixed ticks.
+    /// Returns the RMS difference of a loop's moments from those of the log, without their mean. Beside it is the tick
+    /// rate of an engine with fixed ticks.
     fn difference_ms(
         &self,
         trace: &FrameTrace,

@@ -7,7 +7,7 @@ use crate::sim::number::round;
 use crate::view::{Axis, AxisScale, Chart, Figure, FigureCurve, Legend};
 
 /// Number of charts of a trace.
-pub(super) const CHARTS: usize = 3;
+const CHARTS: usize = 3;
 /// Maximum number of traces in a picture.
 const MAX_TRACES: usize = 4;
 
@@ -21,8 +21,9 @@ const EXPLAINED: &str = "Animation error is the change of the moment shown minus
 /// Maximum latency (ms) in the chart. A loop that is further behind or ahead does not keep time.
 const MAX_LATENCY_MS: f64 = 200.0;
 
-pub(super) fn charts(traces: usize) -> usize {
-    CHARTS * traces.min(MAX_TRACES)
+/// Returns the number of wide charts whose room the picture takes.
+pub(super) fn room(traces: usize) -> usize {
+    2 * traces.min(MAX_TRACES)
 }
 
 /// Returns the picture of `rows`, which are grouped by trace. Each of the first traces has a row of charts.
