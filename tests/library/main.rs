@@ -67,6 +67,7 @@ mod stability;
 mod stable;
 mod step_doubling;
 mod steppers;
+mod stiff_logs;
 mod switching;
 mod tidy;
 mod undo;
