@@ -25,8 +25,9 @@ The unit of t is in its heading, or found by its size; without t and tick, the r
 If rows are skipped, a column tick counts them; without it, t does. Rows at uneven times, as of a video,
 show the motion but not the method; rows that step alike whatever their times are ticks. If a log without v
 fits several methods, identify assumes a start at rest where that decides. At most 3000 ticks are read;
---rows, or --start and --end choose which. Where y and z are there too, each is answered. A line on
-standard error has the rows, the columns and those left out, the unit and the rate; in JSON it is read.
+--rows, or --start and --end choose which. Where y and z are there too, or a row for each of several
+bodies, each is answered; --where takes one body. A line on standard error has the rows, the columns and
+those left out, the unit and the rate; in JSON it is read.
 The body is one of:
 
   a spring      --k, and --c and --mass if they are not 0 and 1
@@ -145,27 +146,48 @@ fn remedy(error: &LogError) -> &'static str {
     }
 }
 
-impl LogArgs {
-    /// Reads the log at `path`, which comes from a game with this tick rate in hertz. Without one the log's times give
-    /// it, or else `usual_hz`. `others` are the table's options, if not these.
-    pub(super) fn read(
-        &self,
-        path: &Path,
-        (tick_hz, usual_hz): (Option<f64>, Option<f64>),
-        others: Option<TableOptions>,
-    ) -> Result<Log, Error> {
-        let options = others.unwrap_or_else(|| self.table.options());
+/// The bytes of a log's file, with its name in messages.
+pub(super) struct LogFile {
+    name: String,
+    bytes: Vec<u8>,
+}
+
+impl LogFile {
+    pub(super) fn read(path: &Path) -> Result<Self, Error> {
         let bytes = regular_file::read_table(path).map_err(|error| {
             Error::mistake(format!("cannot read the log {}: {error}", brief(path)))
         })?;
         let is_standard = path.as_os_str() == "-";
         let name = if is_standard { "standard input".into() } else { brief(path) };
-        let mut parsed = Log::from_bytes(&name, &bytes, &options, tick_hz);
+        Ok(Self { name, bytes })
+    }
+
+    /// Reads a log of a game with this tick rate in hertz. Without one the log's times give it.
+    fn log(&self, options: &TableOptions, tick_hz: Option<f64>) -> Result<Log, LogError> {
+        Log::from_bytes(&self.name, &self.bytes, options, tick_hz)
+    }
+}
+
+fn refused(error: LogError) -> Error {
+    Error::mistake(format!("{error}{}", remedy(&error)))
+}
+
+impl LogArgs {
+    /// Reads the log at `path`, which comes from a game with this tick rate in hertz. Without one the log's times give
+    /// it, or else `usual_hz`.
+    pub(super) fn read(
+        &self,
+        path: &Path,
+        (tick_hz, usual_hz): (Option<f64>, f64),
+    ) -> Result<Log, Error> {
+        let (file, options) = (LogFile::read(path)?, self.table.options());
+        let read = file.log(&options, tick_hz);
         let is_missing = |error: &LogError| error.mistaken == Some(LogSetting::MissingTickRate);
-        if usual_hz.is_some() && parsed.as_ref().is_err_and(is_missing) {
-            parsed = Log::from_bytes(&name, &bytes, &options, usual_hz);
-        }
-        let log = parsed.map_err(|error| Error::mistake(format!("{error}{}", remedy(&error))))?;
+        let log = match read {
+            Err(error) if is_missing(&error) => file.log(&options, Some(usual_hz)),
+            read => read,
+        };
+        let log = log.map_err(refused)?;
         print_status(&log.summary());
         Ok(log)
     }
@@ -183,34 +205,71 @@ impl LogArgs {
 }
 
 pub(super) fn run(args: &IdentifyArgs) -> Result<(), Error> {
-    let tick_hz = args.tick_hz.or(args.step);
-    let log = args.read.read(&args.log, (tick_hz, None), None)?;
-    let others: Vec<(&str, Log)> = other_coordinates(args, &log)
-        .into_iter()
-        .filter_map(|(name, options)| {
-            let log = args.read.read(&args.log, (tick_hz, None), Some(options));
-            log.map_err(|error| print_status(&format!("{name}: {error}"))).ok().map(|it| (name, it))
-        })
-        .collect();
+    let logs = logs(args)?;
     let found = |log: &Log| identify(log, &args.read.body(args.mass), log.tick_hz());
     if let TableFormat::Json = args.format {
-        let of = |log| object(found(log).as_ref(), log, args.mass);
-        let mut first = of(&log);
-        others.iter().for_each(|(name, log)| first["others"][name] = of(log));
+        let mut objects =
+            logs.iter().map(|(name, log)| (name, object(found(log).as_ref(), log, args.mass)));
+        let Some((name, mut first)) = objects.next() else { return Ok(()) };
+        if !name.is_empty() {
+            first["of"] = name.as_str().into();
+        }
+        objects.for_each(|(name, object)| first["others"][name] = object);
         return args.format.print(&format!("{first:#}\n"));
     }
-    let of =
-        |log| found(log).map_or(NOTHING_RUNS.into(), |found| report_text(&found, log, args.mass));
-    let mut text = of(&log);
-    others.iter().for_each(|(name, log)| text += &format!("\n{name}\n{}", of(log)));
-    args.format.print(&text)
+    let text = logs.iter().map(|(name, log)| {
+        let told = found(log);
+        let told = told.map_or(NOTHING_RUNS.into(), |found| report_text(&found, log, args.mass));
+        if name.is_empty() { told } else { format!("{name}\n{told}") }
+    });
+    args.format.print(&text.collect::<Vec<_>>().join("\n"))
+}
+
+/// Returns the log of each body and each coordinate, with a name where there are several. Where one cannot be read, the
+/// reason is printed.
+fn logs(args: &IdentifyArgs) -> Result<Vec<(String, Log)>, Error> {
+    let tick_hz = args.tick_hz.or(args.step);
+    let (file, options) = (LogFile::read(&args.log)?, args.read.table.options());
+    let bodies: Vec<_> = match file.log(&options, tick_hz) {
+        Ok(log) => vec![(String::new(), log, options)],
+        Err(error) => {
+            let of = |(column, cell): &(String, String)| {
+                let mut options = options.clone();
+                options.filter.push((column.clone(), cell.clone()));
+                let log = file.log(&options, tick_hz).ok()?;
+                Some((format!("{column}={cell}"), log, options))
+            };
+            let bodies: Vec<_> = error.bodies.iter().filter_map(of).collect();
+            if bodies.is_empty() {
+                return Err(refused(error));
+            }
+            print_status(&error.to_string());
+            bodies
+        }
+    };
+    let mut logs = Vec::new();
+    for (name, log, options) in bodies {
+        let others = other_coordinates(&options, &log);
+        logs.push((name.clone(), log));
+        for (axis, options) in others {
+            let name = format!("{name} {axis}").trim_start().to_owned();
+            match file.log(&options, tick_hz) {
+                Ok(log) => logs.push((name, log)),
+                Err(error) => print_status(&format!("{name}: {error}")),
+            }
+        }
+    }
+    for (name, log) in &logs {
+        let of = if name.is_empty() { String::new() } else { format!("{name}: ") };
+        print_status(&format!("{of}{}", log.summary()));
+    }
+    Ok(logs)
 }
 
 /// Returns the coordinates of the body beside x, with the options that read each. A log with the velocity of x alone
-/// gives none, and so does standard input.
-fn other_coordinates(args: &IdentifyArgs, log: &Log) -> Vec<(&'static str, TableOptions)> {
-    let options = args.read.table.options();
-    if options.x.is_some() || args.log.as_os_str() == "-" {
+/// gives none.
+fn other_coordinates(options: &TableOptions, log: &Log) -> Vec<(&'static str, TableOptions)> {
+    if options.x.is_some() {
         return Vec::new();
     }
     let left_out = &log.taken().left_out;

@@ -122,14 +122,15 @@ pub(super) fn run(args: &PlayArgs) -> Result<(), Error> {
         Some(opened) => opened,
         None => (args.experiment.load(mode)?, args.experiment.clone()),
     };
-    let experiment = Experiment { loop_trace: args.loop_trace, ..experiment };
+    let loop_trace = args.loop_trace.or_else(|| scene_file::loop_trace_of(options.scene()));
+    let experiment = Experiment { loop_trace, ..experiment };
     let mut studio = experiment.studio();
     studio.viewer.preferences.display.motion =
         if args.reduced_motion { Motion::Reduced } else { Motion::Live };
-    if args.loop_trace.is_none() {
+    if loop_trace.is_none() {
         show_clouds_of_scene(&mut studio.deck, &mut studio.viewer);
     }
-    let opens_at_work = args.race || args.loop_trace.is_some();
+    let opens_at_work = args.race || loop_trace.is_some();
     let shown = SavedPreferences {
         theme: args.theme.or(preferences.theme),
         measure: preferences.measure || opens_at_work,

@@ -240,7 +240,7 @@ pub(super) fn run(args: &PortArgs) -> Result<(), Error> {
             shown
         }
         Some(WishSource::Log(path)) => {
-            let log = args.read.read(&path, (args.step.or(args.tick_hz), Some(USUAL_HZ)), None)?;
+            let log = args.read.read(&path, (args.step.or(args.tick_hz), USUAL_HZ))?;
             (tick_hz, read) = (log.tick_hz(), Some(log.taken().clone()));
             let found = identify(&log, &args.read.body(args.mass), tick_hz);
             if let Some(half_life_s) = found.as_ref().and_then(Identification::chase_half_life_s)

@@ -10,6 +10,7 @@ use super::output::Input;
 use super::own_method::is_step;
 use super::terminal::print_status;
 
+use crate::loops::TraceCard;
 pub(super) use crate::regular_file::is_link;
 use crate::regular_file::{self, Unreadable};
 use crate::run::link::{self, Link};
@@ -55,6 +56,11 @@ fn capture_at(path: &Path) -> Option<PathBuf> {
         }
         false => None,
     }
+}
+
+/// Returns the trace of the loop lab that the capture at `path` shows, if it does.
+pub(super) fn loop_trace_of(path: &Path) -> Option<&'static TraceCard> {
+    captured::read_run(&capture_at(path)?).ok()?.experiment.loop_trace
 }
 
 /// Returns the scene of the rule whose lines are in a file.

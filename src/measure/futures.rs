@@ -36,6 +36,11 @@ pub struct FutureCurve {
     pub moments: Vec<FutureMoment>,
 }
 
+/// Whether a body has too many coordinates for futures.
+pub(crate) fn has_no_futures(of: &LaneBody) -> bool {
+    of.coordinates().len() > MAX_COORDINATES || of.stepper.is_beyond_reference()
+}
+
 /// Computes the second after time `t` (s) of a body at a tick rate, under each of `methods` and last in truth. `held`
 /// is the state in which a person holds the body, and `plotted` the index of the coordinate in the moments' states. The
 /// result is empty if the body has halted or has too many coordinates.
@@ -47,8 +52,7 @@ pub(crate) fn futures(
     plotted: usize,
     methods: &[LaneSpec],
 ) -> Vec<FutureCurve> {
-    let is_dear = of.coordinates().len() > MAX_COORDINATES || of.stepper.is_beyond_reference();
-    if of.halted().is_some() || is_dear {
+    if of.halted().is_some() || has_no_futures(of) {
         return Vec::new();
     }
     let mut from = of.stepper.clone();

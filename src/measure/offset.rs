@@ -36,7 +36,13 @@ async fn beside(found: Comparison, [own, truth]: [&BodyTruth; 2], tick_hz: TickR
     // A swing that grows has no width to stay at, so that its width is the present one.
     let grown = found.width.filter(|_| found.change != Trend::Grows).unwrap_or(1.0);
     let widths = widths[0].zip(widths[1]);
-    let width = widths.map(|(own, truth)| grown * own / truth).or(found.width);
+    // The first half turn of a swing that loses energy begins anywhere, so that the next ones show its width.
+    let of_half_turns =
+        swings.filter(|_| truth.energy_scale.is_none()).and_then(|(ours, theirs)| {
+            ours.width_beside(theirs, [own, truth].map(|it| it.amplitudes[theirs.coordinate]))
+        });
+    let width = of_half_turns.or(widths.map(|(own, truth)| own / truth));
+    let width = width.map(|width| grown * width).or(found.width);
     let own_frequency = found.frequency_error.unwrap_or(0.0);
     let frequency_error = swings
         .and_then(|(own, truth)| truth.frequency_error(&own.crossings))

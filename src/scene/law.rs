@@ -10,7 +10,8 @@ use super::table::{Named, Table, TextBlock};
 use super::wanted::{Field, Wanted};
 use crate::sim::bodies::{ClaimHorizon, Kind, Range, check_law, law_kind};
 use crate::sim::law::{
-    CoordinateText, LawFault, LawText, Layout, MAX_CONSTANTS, MAX_COORDINATES, Part, UNITS,
+    CoordinateText, LawFault, LawText, Layout, MAX_CONSTANTS, MAX_COORDINATES, Part, SecondOrder,
+    UNITS, second_order,
 };
 
 /// The name of the table array.
@@ -24,6 +25,8 @@ const PLANE: Field =
     Field::optional("plane", "the coordinates that are drawn as a point", Wanted::Plane);
 const DRAW: Field = Field::optional("draw", "how the coordinates lie in space", Wanted::Layout);
 const UNIT: Field = Field::optional("unit", "its unit; metres if left out", Wanted::Text(16));
+/// The derivative of a coordinate of first order. Such a law is refused with its second-order form.
+const RATE: Field = Field::optional("rate", "its first derivative by time", Wanted::Expression);
 const AT: Field =
     Field::optional("at", "its place in metres, by coordinates and constants", Wanted::At);
 
@@ -104,7 +107,11 @@ pub(super) static COORDINATE_KEYS: [Key<WrittenCoordinate, CoordinateValues>; 7]
     },
     Key {
         field: Field::required("acceleration", "its second derivative by time", Wanted::Expression),
-        read: |coordinate, table, field| coordinate.acceleration = table.expression(field),
+        read: |coordinate, table, field| {
+            coordinate.is_rate = table.has(RATE.key) && !table.has(field.key);
+            let field = if coordinate.is_rate { &RATE } else { field };
+            coordinate.acceleration = table.expression(field);
+        },
         write: |coordinate| Some(quoted(&coordinate.text.acceleration)),
     },
     Key {
@@ -162,6 +169,8 @@ pub(super) struct WrittenCoordinate {
     span: Span<usize>,
     unit: &'static str,
     acceleration: Option<TextBlock>,
+    /// Whether the acceleration is written as a rate.
+    is_rate: bool,
     exact: Option<TextBlock>,
     at: Option<[WrittenName; 2]>,
     start: Option<f64>,
@@ -179,6 +188,10 @@ pub(super) fn read_law(
     Key::read_all(&LAW_KEYS, &mut law, row);
     check_one_picture(row, law.coordinates());
     let Some(text) = law.text() else { return (None, None) };
+    if law.coordinates().iter().any(|coordinate| coordinate.is_rate) {
+        law.report_rates(row, &text);
+        return (None, None);
+    }
     let kind = match law_kind(text) {
         Ok(kind) => kind,
         Err(refusals) => {
@@ -228,6 +241,7 @@ fn read_coordinates(row: &mut Table<'_>, field: &Field) -> Option<Vec<WrittenCoo
             span: entry.span.clone(),
             unit: UNITS[0],
             acceleration: None,
+            is_rate: false,
             exact: None,
             at: None,
             start: Some(0.0),
@@ -382,6 +396,33 @@ impl WrittenLaw {
         let [starts, velocities, kicks] =
             [of(|it| it.start)?, of(|it| it.start_velocity)?, of(|it| it.kick)?];
         Some([self.numbers.clone()?, starts, velocities, kicks].concat())
+    }
+
+    /// Reports each rate with its second-order form.
+    fn report_rates(&self, row: &mut Table<'_>, text: &LawText) {
+        let forms = self.values().and_then(|values| second_order(text, &values));
+        let forms = forms.filter(|_| self.coordinates().iter().all(|of| of.is_rate));
+        for (i, coordinate) in self.coordinates().iter().enumerate().filter(|(_, of)| of.is_rate) {
+            let what = format!(
+                "`{}` has a rate, and methods here step a position with a velocity, by its acceleration",
+                coordinate.name
+            );
+            let remedy = match forms.as_ref().map(|forms| &forms[i]) {
+                Some(SecondOrder { acceleration: Some(acceleration), start_velocity }) => format!(
+                    "write its second-order form: `acceleration = {}` and `start_velocity = {}`",
+                    quoted(acceleration),
+                    number(*start_velocity)
+                ),
+                _ => "write its second-order form: as `acceleration` the derivative of its rate by time, \
+                      and as `start_velocity` its rate at the start"
+                    .into(),
+            };
+            let span =
+                coordinate.acceleration.as_ref().map_or(coordinate.span.clone(), |written| {
+                    written.span_in_file(&(0..written.text.len()))
+                });
+            row.report_fault(span, what, remedy);
+        }
     }
 
     /// Reports a fault of the law at its place in the file.

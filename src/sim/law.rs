@@ -21,6 +21,7 @@ mod form;
 mod function;
 mod jet;
 mod op;
+mod rate;
 mod registers;
 mod step_text;
 mod switch;
@@ -32,6 +33,7 @@ pub(crate) use expression::Expression;
 pub use expression::{MAX_BYTES, MAX_DEPTH};
 pub use fault::{ExpressionFault, LawFault, Part, Remedy};
 pub(crate) use op::Level;
+pub use rate::{SecondOrder, second_order};
 pub(in crate::sim) use registers::LawLanes;
 pub use registers::Registers;
 pub(crate) use step_text::{

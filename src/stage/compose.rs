@@ -19,7 +19,7 @@ use crate::look::{Framing, Look};
 use crate::run::race::{Entrant, Mode};
 use crate::scene::{Mark, Outline};
 use crate::studio::{Arrangement, Studio, ZoomPan};
-use crate::studio::{DIGITS, shown_state, shows_futures};
+use crate::studio::{DIGITS, shown_state, shows_futures, without_futures};
 
 /// Most lanes for which each body shows its lane's number.
 const MAX_NUMBERED: usize = 9;
@@ -208,7 +208,9 @@ impl BodyCell<'_> {
         }
         if self.shows_futures() && self.lanes.iter().any(|lane| lane.id == studio.selected().id) {
             futures::draw(picture, moment, (camera, self.room()), framing, index);
-            captions::futures(picture, camera.rect, studio, palette);
+            if without_futures(&studio.deck, index).is_none() {
+                captions::futures(picture, camera.rect, studio, palette);
+            }
         }
 
         let behind = self.lanes.iter().filter(|lane| !self.is_front(lane));

@@ -3,6 +3,7 @@
 use super::Studio;
 use super::deck::Deck;
 use super::viewer::Viewer;
+use crate::look::{Framing, Look};
 use crate::measure;
 use crate::measure::{FutureCurve, OneStep};
 use crate::scene::LaneSpec;
@@ -45,6 +46,15 @@ pub fn shows_futures(studio: &Studio) -> bool {
             || is_dragged
             || studio.viewer.futures_left_ns > 0
             || studio.viewer.display().futures && !studio.deck.time_runs())
+}
+
+/// Returns why the stage draws no futures of a body of the selected lane, if it draws none.
+pub fn without_futures(deck: &Deck, body: usize) -> Option<&'static str> {
+    let of = &deck.selected().lane.bodies()[body];
+    if matches!(Look::of(of).framing(), Framing::Follow { .. }) {
+        return Some("The stage moves with this body, so that it has no threads.");
+    }
+    measure::has_no_futures(of).then_some("A body of so many coordinates has no threads.")
 }
 
 /// Returns the next second of the body with this index in the scene, from its state in the selected lane, under each

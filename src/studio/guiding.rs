@@ -1,5 +1,6 @@
 //! The guide and the hints of a studio. Opens stops, and notes when their tasks are done.
 
+use super::ahead::without_futures;
 use super::deck::{Deck, LeftRun};
 use super::display::Display;
 use super::guide::{Goal, HintContext, STOPS, Stop, Tour};
@@ -147,18 +148,19 @@ pub(super) fn look_at_goal(
 }
 
 /// Returns the hint while a person holds the tick rate or looks at futures.
-fn fan_hint(deck: &Deck, viewer: &Viewer, is_in_loop_lab: bool) -> Option<&'static str> {
+fn fan_hint(deck: &Deck, viewer: &Viewer, is_in_loop_lab: bool) -> Option<String> {
     let shows_fan = viewer.display().futures && !deck.time_runs() && !is_in_loop_lab;
-    match (deck.tick_rate_is_held, deck.running) {
-        (true, true) => {
-            Some("Let go, and time runs on at this rate. `Esc` brings the old one back.")
-        }
-        (true, false) => Some("Let go to keep this rate. `Esc` brings the old one back."),
+    let hint = match (deck.tick_rate_is_held, deck.running) {
+        (true, true) => "Let go, and time runs on at this rate. `Esc` brings the old one back.",
+        (true, false) => "Let go to keep this rate. `Esc` brings the old one back.",
         (false, _) if shows_fan => {
-            Some("Where do the threads part? `F` or `Esc` closes the fan, `Space` runs on.")
+            let found = without_futures(deck, viewer.view.body);
+            let found = found.unwrap_or("Where do the threads part?");
+            return Some(format!("{found} `F` or `Esc` closes the fan, `Space` runs on."));
         }
-        _ => None,
-    }
+        _ => return None,
+    };
+    Some(hint.to_owned())
 }
 
 /// Returns the next thing to try, which a run at rest, the guide, the scene or the program suggests. Keys stand between
@@ -182,7 +184,7 @@ pub(super) fn hint(deck: &Deck, viewer: &Viewer, is_in_loop_lab: bool) -> Option
         return Some(next.to_owned());
     }
     if let Some(fan) = fan_hint(deck, viewer, is_in_loop_lab) {
-        return Some(fan.to_owned());
+        return Some(fan);
     }
     let from_start = viewer.verdict(deck.active()).filter(|verdict| verdict.starts_at_s == 0.0);
     let outcome = from_start.map(|verdict| verdict.outcome());

@@ -58,7 +58,7 @@ mod work;
 mod zoom_pan;
 
 pub use crate::measure::{FutureCurve, FutureMoment, OneStep, Slope};
-pub use ahead::{exact_future, futures, one_step, orbit, shows_futures};
+pub use ahead::{exact_future, futures, one_step, orbit, shows_futures, without_futures};
 pub use clouding::{accept_cloud, cloud_refusal, cloud_request, complete_clouds, shown_cloud};
 pub use command::{
     Command, RunCommand, SCALE_LADDER, SPEED_LADDER, StageCommand, TICK_LADDER, ViewCommand,

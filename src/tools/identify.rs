@@ -13,13 +13,14 @@ mod fit;
 mod logged;
 mod motion;
 mod simplest;
+mod start;
 mod swing;
 
 use candidates::candidates;
 pub use candidates::{Candidate, SpringForm};
 use decision::{Decision, NO_FIT, decide, rounding};
 pub use effective::Effective;
-use fit::{Fit, fit};
+use fit::{Fit, Start, fit};
 pub use logged::{Log, LogError, LogRow, LogSetting, LoggedBody};
 pub(crate) use motion::{SLOW, run};
 pub use simplest::SimpleMotion;
@@ -174,7 +175,8 @@ fn identify_with(
     (tick_hz, first_rest): (f64, Option<f64>),
     swing: Option<FittedSwing>,
 ) -> Option<Identification> {
-    let fits = search(log, body, (tick_hz, first_rest));
+    let seen = swing.filter(|swing| swing.residual <= NO_SWING).map(|swing| swing.seen);
+    let fits = search(log, body, Start { tick_hz, rest: first_rest, seen });
     let Decision { conclusion, same, unusual, rival } = decide(&fits, body, log.is_double())?;
     let (best, best_fit) = same.first()?;
     let fitted = |(candidate, fit): &(Candidate, Fit)| Fitted {
@@ -290,14 +292,10 @@ const APART: f64 = 4.0;
 ///
 /// The residual on a log's head is a lower bound of the residual on the whole log. Candidates are therefore fitted to
 /// the whole log in the order of this bound, until the next bound is too large.
-fn search(
-    log: &Log,
-    body: &LoggedBody,
-    (tick_hz, first_rest): (f64, Option<f64>),
-) -> Vec<(Candidate, Fit)> {
+fn search(log: &Log, body: &LoggedBody, start: Start) -> Vec<(Candidate, Fit)> {
     let head = if body.spring.is_some() { log.head(HEAD_TICKS) } else { log.clone() };
     let is_whole = head.rows().len() == log.rows().len();
-    let fit_to = |log: &Log, candidate| fit(log, body, candidate, (tick_hz, first_rest));
+    let fit_to = |log: &Log, candidate| fit(log, body, candidate, start);
     let mut queue: Vec<(Candidate, Fit)> = candidates(body)
         .into_iter()
         .filter_map(|candidate| Some((candidate, fit_to(&head, candidate)?)))
@@ -338,7 +336,7 @@ fn nearest(log: &Log, body: &LoggedBody, tick_hz: f64) -> Option<Effective> {
         None => free.drag = seen.decay,
     }
     let exact = Candidate { method: method(EXACT)?, substeps: 1, spring: SpringForm::Acceleration };
-    let fit = fit(log, &free, exact, (tick_hz, None))?;
+    let fit = fit(log, &free, exact, Start { tick_hz, rest: None, seen: None })?;
     let is_near = fit.residual() <= NO_FIT;
     is_near.then(|| Effective::exact(&fit.body))?
 }

@@ -68,6 +68,7 @@ mod stability;
 mod stable;
 mod step_doubling;
 mod steppers;
+mod stiff_logs;
 mod switching;
 mod tidy;
 mod undo;

@@ -6,10 +6,8 @@ use regatta::tools::source_code::{Language, Precision, source_code};
 use crate::desk::{Desk, until};
 use crate::widgets::paused;
 
-#[test]
-fn control_c_on_a_lane_and_its_menu_copy_the_method() {
-    let test = "control_c_on_a_lane_and_its_menu_copy_the_method";
-    let Some((desk, mut twin)) = paused(test, "spring") else { return };
+pub(crate) fn control_c_on_a_lane_and_its_menu_copy_the_method() {
+    let (desk, mut twin) = paused("spring");
     let holds = |id: &str, language: Language| {
         let code = source_code(method(id).unwrap(), language, Precision::Double).unwrap();
         until("the method on the clipboard", || (desk.clipboard() == code).then_some(()));
@@ -41,10 +39,8 @@ const PASTES: usize = 30;
 const LONG: usize = 20_000;
 const MAX_GROWTH_MB: [f64; 2] = [20.0, 160.0];
 
-#[test]
-fn pasting_a_long_text_repeatedly_uses_no_memory() {
-    let test = "pasting_a_long_text_repeatedly_uses_no_memory";
-    let Some(desk) = Desk::open(test, "--scene spring") else { return };
+pub(crate) fn pasting_a_long_text_repeatedly_uses_no_memory() {
+    let desk = Desk::open("--scene spring");
     desk.copy_elsewhere(&"60,1.0,-0.25\n".repeat(LONG));
     desk.press("space");
     desk.still();
@@ -66,10 +62,8 @@ fn pasting_a_long_text_repeatedly_uses_no_memory() {
     desk.ends();
 }
 
-#[test]
-fn text_is_copied_and_pasted_between_fields_and_other_programs() {
-    let test = "text_is_copied_and_pasted_between_fields_and_other_programs";
-    let Some(desk) = Desk::open(test, "--scene spring") else { return };
+pub(crate) fn text_is_copied_and_pasted_between_fields_and_other_programs() {
+    let desk = Desk::open("--scene spring");
     desk.copy_elsewhere("ship");
     // The path is pasted before a frame has shown its field.
     desk.press("o ctrl+v Return");
@@ -91,11 +85,9 @@ fn text_is_copied_and_pasted_between_fields_and_other_programs() {
     desk.quit();
 }
 
-#[test]
-fn a_short_link_opens_its_scene_paused_at_its_tick() {
-    let test = "a_short_link_opens_its_scene_paused_at_its_tick";
+pub(crate) fn a_short_link_opens_its_scene_paused_at_its_tick() {
     let link = "#scene=spring&method=rk4&tick-hz=30&tick=45";
-    let Some(desk) = Desk::open(test, &format!("--scene {link}")) else { return };
+    let desk = Desk::open(&format!("--scene {link}"));
     desk.titled("Regatta - spring - Runge-Kutta 4 - 30 Hz (paused)");
     // As long as a person looks at it before sending it on.
     std::thread::sleep(std::time::Duration::from_secs(1));

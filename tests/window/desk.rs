@@ -1,6 +1,6 @@
 //! A display, the program on it, and a person at keyboard and mouse.
 
-use std::io::{self, BufRead, BufReader, Write};
+use std::io::{BufRead, BufReader};
 use std::ops::RangeInclusive;
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
@@ -39,21 +39,16 @@ pub(crate) struct Desk {
 }
 
 impl Desk {
-    /// Starts the program with these words, and the focus on its window. Without a display server, or without
-    /// a driver under `--renderer gpu`, it writes that `test` is skipped.
+    /// Starts the program with these words, and the focus on its window.
     #[track_caller]
-    pub(crate) fn open(test: &str, arguments: &str) -> Option<Self> {
-        Self::open_with(test, arguments, &[])
+    pub(crate) fn open(arguments: &str) -> Self {
+        Self::open_with(arguments, &[])
     }
 
     /// The same with environment variables set.
     #[track_caller]
-    pub(crate) fn open_with(
-        test: &str,
-        arguments: &str,
-        variables: &[(&str, &str)],
-    ) -> Option<Self> {
-        let display = Display::open(test)?;
+    pub(crate) fn open_with(arguments: &str, variables: &[(&str, &str)]) -> Self {
+        let display = Display::open();
         let mut program = display.start(arguments, variables);
         let window = until("a window", || {
             if let Some(status) = program.ended() {
@@ -62,15 +57,10 @@ impl Desk {
             let found = display.xdotool("search --onlyvisible --name ^Regatta").ok()?;
             found.lines().last().map(|window| Ok(window.to_owned()))
         });
-        let window = match window {
-            Ok(window) => window,
-            Err(_) => {
-                return skip_for_want_of_an_adapter(test, &program.said());
-            }
-        };
+        let window = window.unwrap_or_else(|status| panic!("{status}: {}", program.said()));
         let desk = Self { program, window, display };
         desk.focus();
-        Some(desk)
+        desk
     }
 
     /// Gives the window the focus: there is no window manager to do it.
@@ -318,32 +308,25 @@ pub(crate) struct Display {
 }
 
 impl Display {
-    /// Starts a server, or says in the name of `test` why there is none.
-    pub(crate) fn open(test: &str) -> Option<Self> {
-        Self::of_screen(test, "2600x1500x24")
+    pub(crate) fn open() -> Self {
+        Self::of_screen("2600x1500x24")
     }
 
     /// The same with a screen of this width, height and number of bits a pixel.
-    pub(crate) fn of_screen(test: &str, screen: &str) -> Option<Self> {
-        if let Err(error) = Command::new("xdotool").arg("version").output() {
-            return skip(test, &format!("xdotool: {error}"));
-        }
-        let server = Command::new("Xvfb")
+    pub(crate) fn of_screen(screen: &str) -> Self {
+        let mut server = Command::new("Xvfb")
             .args("-displayfd 1 -noreset -nolisten tcp -screen 0".split(' '))
             .arg(screen)
             .stdin(Stdio::null())
             .stdout(Stdio::piped())
             .stderr(Stdio::null())
-            .spawn();
-        let mut server = match server {
-            Ok(server) => server,
-            Err(error) => return skip(test, &format!("Xvfb: {error}")),
-        };
+            .spawn()
+            .expect("Xvfb starts");
         let mut number = String::new();
         let stdout = server.stdout.take().expect("it is piped");
         BufReader::new(stdout).read_line(&mut number).expect("Xvfb writes its display's number");
         let folder = TempDir::new().unwrap();
-        Some(Self { server, name: format!(":{}", number.trim()), folder })
+        Self { server, name: format!(":{}", number.trim()), folder }
     }
 
     /// Starts the program on this display.
@@ -376,16 +359,4 @@ impl Drop for Display {
     fn drop(&mut self) {
         end(&mut self.server);
     }
-}
-
-#[track_caller]
-pub(crate) fn skip_for_want_of_an_adapter<T>(test: &str, said: &str) -> Option<T> {
-    assert!(said.contains("no usable graphics adapter"), "{said}");
-    skip(test, said.trim_end())
-}
-
-pub(crate) fn skip<T>(test: &str, reason: &str) -> Option<T> {
-    // Not `eprintln!`, which the test runner hides when a test passes.
-    let _ = writeln!(io::stderr(), "SKIPPED {test}: {reason}");
-    None
 }

@@ -88,14 +88,12 @@ pub(crate) fn drop_file(desk: &Desk, path: &Path) {
     });
 }
 
-#[test]
-fn a_dropped_scene_file_is_opened_unless_it_has_mistakes() {
-    let test = "a_dropped_scene_file_is_opened_unless_it_has_mistakes";
+pub(crate) fn a_dropped_scene_file_is_opened_unless_it_has_mistakes() {
     let folder = tempfile::tempdir().unwrap();
     let [good, bad] = ["mine.toml", "bad.toml"].map(|name| folder.path().join(name));
     std::fs::write(&good, include_str!("../../assets/scenes/ship.toml")).unwrap();
     std::fs::write(&bad, "tick_hz = 0").unwrap();
-    let Some(desk) = Desk::open(test, "--scene spring") else { return };
+    let desk = Desk::open("--scene spring");
     desk.press("space");
     until("a pause", || desk.title().contains("(paused").then_some(()));
     drop_file(&desk, &good);
@@ -110,15 +108,13 @@ fn a_dropped_scene_file_is_opened_unless_it_has_mistakes() {
     desk.quit();
 }
 
-#[test]
-fn a_dropped_frame_log_opens_the_loop_lab_or_shows_its_mistakes() {
-    let test = "a_dropped_frame_log_opens_the_loop_lab_or_shows_its_mistakes";
+pub(crate) fn a_dropped_frame_log_opens_the_loop_lab_or_shows_its_mistakes() {
     let folder = tempfile::tempdir().unwrap();
     let [good, bad] = ["log.csv", "bad.csv"].map(|name| folder.path().join(name));
     let rows = "16.7,16.7\n".repeat(100);
     std::fs::write(&good, format!("MsBetweenPresents,MsBetweenDisplayChange\n{rows}")).unwrap();
     std::fs::write(&bad, "a,b\n1,2\n").unwrap();
-    let Some(desk) = Desk::open(test, "--scene spring") else { return };
+    let desk = Desk::open("--scene spring");
     desk.titled("Regatta - spring - Explicit Euler - 60 Hz");
     drop_file(&desk, &good);
     desk.titled("Regatta - spring - loop lab: Fixed - log.csv - 60 Hz");

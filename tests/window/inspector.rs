@@ -5,10 +5,8 @@ use std::time::Duration;
 
 use crate::desk::Desk;
 
-#[test]
-fn typing_into_the_inspector_edits_and_triggers_no_other_key() {
-    let test = "typing_into_the_inspector_edits_and_triggers_no_other_key";
-    let Some(desk) = Desk::open(test, "--scene spring") else { return };
+pub(crate) fn typing_into_the_inspector_edits_and_triggers_no_other_key() {
+    let desk = Desk::open("--scene spring");
     desk.press("space");
     desk.titled("Regatta - spring - Explicit Euler - 60 Hz (paused)");
     // High enough for the line to be in sight.
@@ -38,10 +36,8 @@ fn typing_into_the_inspector_edits_and_triggers_no_other_key() {
     desk.quit();
 }
 
-#[test]
-fn time_advances_while_a_parameter_is_swept() {
-    let test = "time_advances_while_a_parameter_is_swept";
-    let Some(desk) = Desk::open(test, "--scene spring") else { return };
+pub(crate) fn time_advances_while_a_parameter_is_swept() {
+    let desk = Desk::open("--scene spring");
     let paused = "Regatta - spring - Explicit Euler - 60 Hz (paused)";
     desk.press("space");
     desk.titled(paused);

@@ -46,10 +46,8 @@ fn x_name(key: Key) -> String {
     }
 }
 
-#[test]
-fn every_key_performs_its_command_from_the_table() {
-    let test = "every_key_performs_its_command_from_the_table";
-    let Some(desk) = Desk::open(test, "--scene spring") else { return };
+pub(crate) fn every_key_performs_its_command_from_the_table() {
+    let desk = Desk::open("--scene spring");
     desk.titled("Regatta - spring - Explicit Euler - 60 Hz");
     let mut studio = studio("spring");
     for (key, command) in KEYS.iter().flat_map(|binding| binding.keys) {
@@ -95,10 +93,8 @@ fn every_key_performs_its_command_from_the_table() {
     desk.quit();
 }
 
-#[test]
-fn keys_work_in_the_loop_lab_and_leaving_it_restores_the_run() {
-    let test = "keys_work_in_the_loop_lab_and_leaving_it_restores_the_run";
-    let Some(desk) = Desk::open(test, "--scene spring --loop") else { return };
+pub(crate) fn keys_work_in_the_loop_lab_and_leaving_it_restores_the_run() {
+    let desk = Desk::open("--scene spring --loop");
     let mut studio = studio("spring");
     studio.apply(Command::Loop(LoopCommand::ToggleLab));
     desk.titled("Regatta - spring - loop lab: Fixed - edge - 60 Hz");
@@ -133,10 +129,8 @@ fn keys_work_in_the_loop_lab_and_leaving_it_restores_the_run() {
     desk.quit();
 }
 
-#[test]
-fn a_tick_forward_is_one_tick() {
-    let test = "a_tick_forward_is_one_tick";
-    let Some(desk) = Desk::open(test, "--scene spring") else { return };
+pub(crate) fn a_tick_forward_is_one_tick() {
+    let desk = Desk::open("--scene spring");
     desk.press("period");
     let first = desk.tick_of("Regatta - spring - Explicit Euler - 60 Hz (paused)");
     desk.press("period period period");
@@ -145,10 +139,8 @@ fn a_tick_forward_is_one_tick() {
     desk.quit();
 }
 
-#[test]
-fn a_held_key_repeats_where_useful_but_never_a_toggle() {
-    let test = "a_held_key_repeats_where_useful_but_never_a_toggle";
-    let Some(desk) = Desk::open(test, "--scene spring --tick-hz 1000") else { return };
+pub(crate) fn a_held_key_repeats_where_useful_but_never_a_toggle() {
+    let desk = Desk::open("--scene spring --tick-hz 1000");
     desk.xdotool("keydown bracketleft");
     desk.titled("Regatta - spring - Explicit Euler - 2 Hz");
     desk.xdotool("keyup bracketleft keydown space");
@@ -163,20 +155,16 @@ fn a_held_key_repeats_where_useful_but_never_a_toggle() {
     desk.quit();
 }
 
-#[test]
-fn unbound_chords_with_control_or_alt_are_ignored() {
-    let test = "unbound_chords_with_control_or_alt_are_ignored";
-    let Some(desk) = Desk::open(test, "--scene spring") else { return };
+pub(crate) fn unbound_chords_with_control_or_alt_are_ignored() {
+    let desk = Desk::open("--scene spring");
     desk.press("ctrl+n alt+1 ctrl+space super+c Caps_Lock m");
     // With capitals locked, M is still the next method.
     desk.titled("Regatta - spring - Semi-implicit Euler - 60 Hz");
     desk.quit();
 }
 
-#[test]
-fn the_guide_opens_a_waiting_stop_and_escape_returns_to_the_run() {
-    let test = "the_guide_opens_a_waiting_stop_and_escape_returns_to_the_run";
-    let Some(desk) = Desk::open(test, "--scene spring") else { return };
+pub(crate) fn the_guide_opens_a_waiting_stop_and_escape_returns_to_the_run() {
+    let desk = Desk::open("--scene spring");
     desk.press("F2");
     // Time waits for the prediction.
     desk.titled("Regatta - ship - Runge-Kutta 4 - 10 Hz (paused)");
@@ -185,11 +173,9 @@ fn the_guide_opens_a_waiting_stop_and_escape_returns_to_the_run() {
     desk.quit();
 }
 
-#[test]
-fn slow_loops_do_not_block_the_window() {
+pub(crate) fn slow_loops_do_not_block_the_window() {
     /// Long for a title, and far shorter than these loops take: millions of steps of a chain.
     const SOON: Duration = Duration::from_secs(3);
-    let test = "slow_loops_do_not_block_the_window";
     let folder = tempfile::TempDir::new().unwrap();
     let scene = folder.path().join("long.toml");
     let chain = std::fs::read_to_string("assets/scenes/chain.toml").unwrap();
@@ -198,7 +184,7 @@ fn slow_loops_do_not_block_the_window() {
         .replace("masses = 16", "masses = 256")
         .replace("stiffness_n_per_m = 800", "stiffness_n_per_m = 2000");
     std::fs::write(&scene, text).unwrap();
-    let Some(desk) = Desk::open(test, &format!("--scene {}", scene.display())) else { return };
+    let desk = Desk::open(&format!("--scene {}", scene.display()));
     desk.press("space");
     let loops = |hz: u32| format!("Regatta - long.toml - loop lab: Fixed - edge - {hz} Hz");
     for (key, title) in [("l", loops(10_000)), ("bracketleft", loops(1000))] {

@@ -12,9 +12,7 @@ fn open_scene_menu(desk: &Desk, scale: u32) {
     desk.still();
 }
 
-#[test]
-fn the_mouse_works_the_panels_at_every_scale() {
-    let test = "the_mouse_works_the_panels_at_every_scale";
+pub(crate) fn the_mouse_works_the_panels_at_every_scale() {
     // In points. Small, since a press that lasts long in slow frames makes no click.
     let (width, height) = (640, 360);
     // The second of the methods above the footer, where there is room for the name of the chosen one alone.
@@ -22,7 +20,7 @@ fn the_mouse_works_the_panels_at_every_scale() {
     for scale in [1, 2] {
         let factor = scale.to_string();
         let variables = [("WINIT_X11_SCALE_FACTOR", factor.as_str())];
-        let Some(desk) = Desk::open_with(test, "--scene spring", &variables) else { return };
+        let desk = Desk::open_with("--scene spring", &variables);
         desk.press("space");
         desk.titled("Regatta - spring - Explicit Euler - 60 Hz (paused)");
         desk.resize(scale * width, scale * height);
@@ -44,10 +42,8 @@ fn the_mouse_works_the_panels_at_every_scale() {
     }
 }
 
-#[test]
-fn escape_closes_an_open_menu_before_it_ends_the_program() {
-    let test = "escape_closes_an_open_menu_before_it_ends_the_program";
-    let Some(desk) = Desk::open(test, "--scene spring") else { return };
+pub(crate) fn escape_closes_an_open_menu_before_it_ends_the_program() {
+    let desk = Desk::open("--scene spring");
     desk.press("space");
     desk.titled("Regatta - spring - Explicit Euler - 60 Hz (paused)");
     open_scene_menu(&desk, 1);
@@ -56,10 +52,8 @@ fn escape_closes_an_open_menu_before_it_ends_the_program() {
     desk.quit();
 }
 
-#[test]
-fn a_focused_widget_takes_space_until_escape_releases_it() {
-    let test = "a_focused_widget_takes_space_until_escape_releases_it";
-    let Some(desk) = Desk::open(test, "--scene spring") else { return };
+pub(crate) fn a_focused_widget_takes_space_until_escape_releases_it() {
+    let desk = Desk::open("--scene spring");
     desk.press("space");
     desk.titled("Regatta - spring - Explicit Euler - 60 Hz (paused)");
     // The menu of scenes, my spring, restart, a tick back, run.

@@ -24,11 +24,9 @@ fn type_path(desk: &Desk, path: &Path) {
     desk.xdotool(&format!("type --delay 1 {}", path.display()));
 }
 
-#[test]
-fn a_typed_path_opens_its_scene_and_keeps_it_on_the_list() {
-    let test = "a_typed_path_opens_its_scene_and_keeps_it_on_the_list";
+pub(crate) fn a_typed_path_opens_its_scene_and_keeps_it_on_the_list() {
     let (_folder, path) = file("ship.toml", text("ship"));
-    let Some(desk) = Desk::open(test, "--scene spring") else { return };
+    let desk = Desk::open("--scene spring");
     type_path(&desk, &path);
     desk.press("Escape 2");
     desk.titled("Regatta - spring - Semi-implicit Euler - 60 Hz");
@@ -42,11 +40,9 @@ fn a_typed_path_opens_its_scene_and_keeps_it_on_the_list() {
     desk.quit();
 }
 
-#[test]
-fn a_path_is_completed_by_tab() {
-    let test = "a_path_is_completed_by_tab";
+pub(crate) fn a_path_is_completed_by_tab() {
     let (folder, _) = file("swinging.toml", text("pendulum"));
-    let Some(desk) = Desk::open(test, "--scene spring") else { return };
+    let desk = Desk::open("--scene spring");
     type_path(&desk, &folder.path().join("sw"));
     desk.press("Tab");
     desk.press("Return");
@@ -54,11 +50,9 @@ fn a_path_is_completed_by_tab() {
     desk.quit();
 }
 
-#[test]
-fn a_path_without_a_scene_is_reported_and_the_run_continues() {
-    let test = "a_path_without_a_scene_is_reported_and_the_run_continues";
+pub(crate) fn a_path_without_a_scene_is_reported_and_the_run_continues() {
     let (folder, _) = file("other.toml", text("ship"));
-    let Some(desk) = Desk::open(test, "--scene spring") else { return };
+    let desk = Desk::open("--scene spring");
     desk.press("space");
     until("a pause", || desk.title().contains("(paused").then_some(()));
     let title = desk.title();
@@ -85,12 +79,10 @@ fn a_path_without_a_scene_is_reported_and_the_run_continues() {
     desk.quit();
 }
 
-#[test]
-fn a_deleted_file_is_reported_and_a_restored_one_is_reread() {
-    let test = "a_deleted_file_is_reported_and_a_restored_one_is_reread";
+pub(crate) fn a_deleted_file_is_reported_and_a_restored_one_is_reread() {
     let before = text("spring");
     let (_folder, path) = file("mine.toml", before);
-    let Some(desk) = Desk::open(test, &format!("--scene {}", path.display())) else { return };
+    let desk = Desk::open(&format!("--scene {}", path.display()));
     desk.titled("Regatta - mine.toml - Explicit Euler - 60 Hz");
     desk.press("space");
     until("a pause", || desk.title().contains("(paused").then_some(()));
@@ -116,12 +108,10 @@ fn a_deleted_file_is_reported_and_a_restored_one_is_reread() {
     desk.quit();
 }
 
-#[test]
-fn a_file_changed_on_disk_is_rerun_unless_it_is_broken() {
-    let test = "a_file_changed_on_disk_is_rerun_unless_it_is_broken";
+pub(crate) fn a_file_changed_on_disk_is_rerun_unless_it_is_broken() {
     let before = text("spring");
     let (folder, path) = file("mine.toml", before);
-    let Some(desk) = Desk::open(test, &format!("--scene {}", path.display())) else { return };
+    let desk = Desk::open(&format!("--scene {}", path.display()));
     desk.titled("Regatta - mine.toml - Explicit Euler - 60 Hz");
     std::fs::write(&path, before.replace("tick_hz = 60", "tick_hz = 50")).unwrap();
     desk.titled("Regatta - mine.toml - Explicit Euler - 50 Hz");

@@ -4,14 +4,12 @@ use std::collections::HashSet;
 
 use crate::desk::Desk;
 
-#[test]
-fn window_and_screenshot_agree_at_every_scale() {
-    let test = "window_and_screenshot_agree_at_every_scale";
+pub(crate) fn window_and_screenshot_agree_at_every_scale() {
     // The screen of 1500 pixels has no room for 1440 and the bars of a desktop.
     for (scale, height) in [(1, 720), (2, 1340)] {
         let factor = scale.to_string();
         let variables = [("WINIT_X11_SCALE_FACTOR", factor.as_str())];
-        let Some(desk) = Desk::open_with(test, "--scene spring", &variables) else { return };
+        let desk = Desk::open_with("--scene spring", &variables);
         desk.press("space");
         desk.titled("Regatta - spring - Explicit Euler - 60 Hz (paused)");
         let (_, picture) = desk.screenshot();
@@ -23,10 +21,8 @@ fn window_and_screenshot_agree_at_every_scale() {
     }
 }
 
-#[test]
-fn the_window_survives_shrinking_to_one_pixel_and_back() {
-    let test = "the_window_survives_shrinking_to_one_pixel_and_back";
-    let Some(desk) = Desk::open(test, "--scene spring") else { return };
+pub(crate) fn the_window_survives_shrinking_to_one_pixel_and_back() {
+    let desk = Desk::open("--scene spring");
     for (key, [width, height], method) in [
         ("1", [1, 1], "Explicit Euler"),
         ("2", [2500, 3], "Semi-implicit Euler"),
@@ -43,19 +39,15 @@ fn the_window_survives_shrinking_to_one_pixel_and_back() {
     desk.quit();
 }
 
-#[test]
-fn the_window_survives_full_screen_and_back() {
-    let test = "the_window_survives_full_screen_and_back";
-    let Some(desk) = Desk::open(test, "--scene spring") else { return };
+pub(crate) fn the_window_survives_full_screen_and_back() {
+    let desk = Desk::open("--scene spring");
     desk.press("F11 1 F11 space");
     desk.titled("Regatta - spring - Explicit Euler - 60 Hz (paused)");
     desk.quit();
 }
 
-#[test]
-fn escape_leaves_full_screen_and_then_asks_before_it_ends_the_program() {
-    let test = "escape_leaves_full_screen_and_then_asks_before_it_ends_the_program";
-    let Some(mut desk) = Desk::open(test, "--scene spring") else { return };
+pub(crate) fn escape_leaves_full_screen_and_then_asks_before_it_ends_the_program() {
+    let mut desk = Desk::open("--scene spring");
     desk.press("space");
     desk.titled("Regatta - spring - Explicit Euler - 60 Hz (paused)");
     desk.press("F11");

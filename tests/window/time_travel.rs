@@ -9,20 +9,18 @@ const TRACK_Y: u32 = 576;
 
 const PAUSED: &str = "Regatta - spring - Explicit Euler - 60 Hz (paused)";
 
-/// The spring of `test`, paused at least two seconds after its start, and its tick.
-fn paused(test: &str) -> Option<(Desk, u64)> {
-    let desk = Desk::open(test, "--scene spring")?;
+/// The spring, paused at least two seconds after its start, and its tick.
+fn paused() -> (Desk, u64) {
+    let desk = Desk::open("--scene spring");
     desk.press("space");
     let tick = desk.tick_of(PAUSED);
     desk.press("shift+period shift+period");
     desk.at_tick(tick + 120);
-    Some((desk, tick + 120))
+    (desk, tick + 120)
 }
 
-#[test]
-fn a_paused_window_steps_ticks_and_seconds_back_and_forth() {
-    let test = "a_paused_window_steps_ticks_and_seconds_back_and_forth";
-    let Some((desk, tick)) = paused(test) else { return };
+pub(crate) fn a_paused_window_steps_ticks_and_seconds_back_and_forth() {
+    let (desk, tick) = paused();
     for (key, to) in [
         ("period", tick + 1),
         ("comma", tick),
@@ -42,10 +40,8 @@ fn a_paused_window_steps_ticks_and_seconds_back_and_forth() {
     desk.quit();
 }
 
-#[test]
-fn control_z_restores_the_future_discarded_by_an_action_in_the_past() {
-    let test = "control_z_restores_the_future_discarded_by_an_action_in_the_past";
-    let Some((desk, tick)) = paused(test) else { return };
+pub(crate) fn control_z_restores_the_future_discarded_by_an_action_in_the_past() {
+    let (desk, tick) = paused();
     desk.press("shift+comma");
     desk.at_tick(tick - 60);
     desk.press("2");
@@ -58,10 +54,8 @@ fn control_z_restores_the_future_discarded_by_an_action_in_the_past() {
     desk.quit();
 }
 
-#[test]
-fn a_mark_on_the_timeline_has_a_tooltip_with_a_line_for_each_action() {
-    let test = "a_mark_on_the_timeline_has_a_tooltip_with_a_line_for_each_action";
-    let Some((desk, tick)) = paused(test) else { return };
+pub(crate) fn a_mark_on_the_timeline_has_a_tooltip_with_a_line_for_each_action() {
+    let (desk, tick) = paused();
     // At the start, whose place on the track is known.
     for _ in 0..=tick / 60 {
         desk.press("shift+comma");
@@ -93,10 +87,8 @@ fn changed(before: &RgbaImage, after: &RgbaImage, x: u32) -> usize {
     places.filter(|&(x, y)| before.get_pixel(x, y) != after.get_pixel(x, y)).count()
 }
 
-#[test]
-fn a_drag_along_the_timeline_seeks_to_the_tick_under_the_mouse() {
-    let test = "a_drag_along_the_timeline_seeks_to_the_tick_under_the_mouse";
-    let Some((desk, tick)) = paused(test) else { return };
+pub(crate) fn a_drag_along_the_timeline_seeks_to_the_tick_under_the_mouse() {
+    let (desk, tick) = paused();
     let at = |x: u32| desk.xdotool(&format!("mousemove --window WINDOW {x} {TRACK_Y}"));
     at(32);
     desk.xdotool("mousedown 1");

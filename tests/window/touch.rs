@@ -62,15 +62,15 @@ fn body_at(desk: &Desk, [x, y]: [u32; 2]) {
 }
 
 /// A paused window on the spring under RK4, and where its mass is.
-fn paused(test: &str) -> Option<(Desk, [u32; 2])> {
-    let desk = Desk::open(test, "--scene spring --method rk4")?;
+fn paused() -> (Desk, [u32; 2]) {
+    let desk = Desk::open("--scene spring --method rk4");
     desk.press("space");
     until("a pause", || desk.title().contains("(paused").then_some(()));
     // Away from the start, and in motion.
     desk.press(&["period"; 20].join(" "));
     desk.still();
     let (at, _) = body(&desk.sight()).expect("a mass");
-    Some((desk, at))
+    (desk, at)
 }
 
 fn drag(desk: &Desk, [x, y]: [u32; 2], to: [u32; 2]) {
@@ -81,10 +81,8 @@ fn drag(desk: &Desk, [x, y]: [u32; 2], to: [u32; 2]) {
     }
 }
 
-#[test]
-fn a_dragged_mass_is_placed_with_shift_and_escape_cancels() {
-    let test = "a_dragged_mass_is_placed_with_shift_and_escape_cancels";
-    let Some((desk, [x, y])) = paused(test) else { return };
+pub(crate) fn a_dragged_mass_is_placed_with_shift_and_escape_cancels() {
+    let (desk, [x, y]) = paused();
     let title = desk.title();
     let to = [if x > 400 { x - 90 } else { x + 90 }, y];
     drag(&desk, [x, y], [to[0], to[1] + 30]);
@@ -109,10 +107,8 @@ fn a_dragged_mass_is_placed_with_shift_and_escape_cancels() {
     desk.quit();
 }
 
-#[test]
-fn a_released_mass_keeps_the_velocity_of_the_drag_except_with_shift() {
-    let test = "a_released_mass_keeps_the_velocity_of_the_drag_except_with_shift";
-    let Some((desk, [x, y])) = paused(test) else { return };
+pub(crate) fn a_released_mass_keeps_the_velocity_of_the_drag_except_with_shift() {
+    let (desk, [x, y]) = paused();
     let away = if x > 400 { -1 } else { 1 };
     let to = [x.strict_add_signed(90 * away), y];
     // Slow enough for the program to see it move.
@@ -141,10 +137,8 @@ fn a_released_mass_keeps_the_velocity_of_the_drag_except_with_shift() {
     desk.quit();
 }
 
-#[test]
-fn time_stops_while_a_body_is_held() {
-    let test = "time_stops_while_a_body_is_held";
-    let Some(desk) = Desk::open(test, "--scene ship --method rk4 --tick-hz 60") else { return };
+pub(crate) fn time_stops_while_a_body_is_held() {
+    let desk = Desk::open("--scene ship --method rk4 --tick-hz 60");
     // The camera follows it: it stays in its place.
     let at = until("a ship", || ship(&desk.sight()));
     drag(&desk, at, [at[0] + 60, at[1]]);
@@ -161,10 +155,8 @@ fn time_stops_while_a_body_is_held() {
     desk.quit();
 }
 
-#[test]
-fn the_wheel_zooms_a_drag_pans_and_a_double_click_fits() {
-    let test = "the_wheel_zooms_a_drag_pans_and_a_double_click_fits";
-    let Some((desk, at)) = paused(test) else { return };
+pub(crate) fn the_wheel_zooms_a_drag_pans_and_a_double_click_fits() {
+    let (desk, at) = paused();
     let (_, size) = body(&desk.sight()).unwrap();
     let sea = [at[0], 420];
     desk.xdotool(&format!("mousemove --window WINDOW {} {} click 4 click 4", at[0], at[1]));
@@ -190,13 +182,11 @@ fn the_wheel_zooms_a_drag_pans_and_a_double_click_fits() {
     desk.quit();
 }
 
-#[test]
-fn dragging_the_tick_rate_holds_time_and_is_undone_in_one_step() {
-    let test = "dragging_the_tick_rate_holds_time_and_is_undone_in_one_step";
+pub(crate) fn dragging_the_tick_rate_holds_time_and_is_undone_in_one_step() {
     // A first start has the stage alone.
     let config = tempfile::tempdir().unwrap();
     let variables = [("XDG_CONFIG_HOME", config.path().to_str().unwrap())];
-    let Some(desk) = Desk::open_with(test, "--scene spring", &variables) else { return };
+    let desk = Desk::open_with("--scene spring", &variables);
     let mut twin = Twin::new(Studio::new(Scene::built_in("spring").unwrap()));
     twin.studio.viewer.preferences.display.measure = false;
     let scale = twin.slider("tick rate 60 Hz");

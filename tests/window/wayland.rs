@@ -7,7 +7,7 @@ use std::time::{Duration, Instant};
 use image::RgbaImage;
 use tempfile::TempDir;
 
-use crate::desk::{self, until};
+use crate::desk::until;
 use crate::program::{self, Program};
 use crate::touch::body;
 
@@ -17,7 +17,7 @@ struct Compositor {
 }
 
 impl Compositor {
-    fn open(test: &str) -> Option<Self> {
+    fn open() -> Self {
         let folder = TempDir::new().unwrap();
         let server = Command::new("weston")
             .args(["--backend=headless-backend.so", "--socket=sea", "--width=1280", "--height=800"])
@@ -27,14 +27,10 @@ impl Compositor {
             .stdin(Stdio::null())
             .stdout(Stdio::null())
             .stderr(Stdio::null())
-            .spawn();
-        match server {
-            Ok(server) => {
-                until("a compositor", || folder.path().join("sea").exists().then_some(()));
-                Some(Self { server, folder })
-            }
-            Err(error) => desk::skip(test, &format!("weston: {error}")),
-        }
+            .spawn()
+            .expect("weston starts");
+        until("a compositor", || folder.path().join("sea").exists().then_some(()));
+        Self { server, folder }
     }
 
     fn screenshot(&self) -> RgbaImage {
@@ -59,10 +55,8 @@ impl Drop for Compositor {
     }
 }
 
-#[test]
-fn a_wayland_window_without_frame_requests_drops_no_ticks() {
-    let test = "a_wayland_window_without_frame_requests_drops_no_ticks";
-    let Some(compositor) = Compositor::open(test) else { return };
+pub(crate) fn a_wayland_window_without_frame_requests_drops_no_ticks() {
+    let compositor = Compositor::open();
     let variables = [("WAYLAND_DISPLAY", "sea"), ("RUST_LOG", "regatta=info")];
     let folder = compositor.folder.path();
     let mut program = Program::start(folder, "--scene ship --tick-hz 2 --seconds 5", &variables);
@@ -76,28 +70,26 @@ fn a_wayland_window_without_frame_requests_drops_no_ticks() {
     assert!((Duration::from_secs(4)..Duration::from_secs(7)).contains(&took), "{took:?}");
 }
 
-#[test]
-fn a_wayland_compositor_shows_the_stage_whatever_draws_it() {
-    let test = "a_wayland_compositor_shows_the_stage_whatever_draws_it";
-    let Some(compositor) = Compositor::open(test) else { return };
+/// Starts the program under a compositor, and waits for the mass on the screen.
+fn is_shown(renderer: &str) {
+    let compositor = Compositor::open();
     let variables = [("WAYLAND_DISPLAY", "sea"), ("RUST_LOG", "regatta=info")];
-    for renderer in ["cpu", "gpu"] {
-        let arguments = format!("--scene spring --method rk4 --theme dark --renderer {renderer}");
-        let mut program = Program::start(compositor.folder.path(), &arguments, &variables);
-        if let Err(said) = program.says("first frame") {
-            assert_eq!(renderer, "gpu", "{said}");
-            let _: Option<()> = desk::skip_for_want_of_an_adapter(test, &said);
-            return;
-        }
-        until("the mass on the screen", || body(&compositor.screenshot()));
-    }
+    let arguments = format!("--scene spring --method rk4 --theme dark --renderer {renderer}");
+    let mut program = Program::start(compositor.folder.path(), &arguments, &variables);
+    program.says("first frame").unwrap();
+    until("the mass on the screen", || body(&compositor.screenshot()));
 }
 
-#[test]
-fn a_lost_compositor_is_told_of_once() {
-    let Some(mut compositor) = Compositor::open("a_lost_compositor_is_told_of_once") else {
-        return;
-    };
+pub(crate) fn a_wayland_compositor_shows_what_the_processor_draws() {
+    is_shown("cpu");
+}
+
+pub(crate) fn a_wayland_compositor_shows_what_a_graphics_card_draws() {
+    is_shown("gpu");
+}
+
+pub(crate) fn a_lost_compositor_is_told_of_once() {
+    let mut compositor = Compositor::open();
     let arguments = "--scene spring --method rk4 --theme dark --renderer cpu";
     let variables = [("WAYLAND_DISPLAY", "sea")];
     let mut program = Program::start(compositor.folder.path(), arguments, &variables);

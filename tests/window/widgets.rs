@@ -9,18 +9,13 @@ use crate::desk::{Desk, until};
 use crate::twin::Twin;
 
 /// A paused window at the start of a scene, and its twin.
-pub(crate) fn paused(test: &str, scene: &str) -> Option<(Desk, Twin)> {
-    paused_with(test, scene, &[], true)
+pub(crate) fn paused(scene: &str) -> (Desk, Twin) {
+    paused_with(scene, &[], true)
 }
 
 /// The same with environment variables set, with or without instruments round the stage.
-pub(crate) fn paused_with(
-    test: &str,
-    scene: &str,
-    variables: &[(&str, &str)],
-    measure: bool,
-) -> Option<(Desk, Twin)> {
-    let desk = Desk::open_with(test, &format!("--scene {scene}"), variables)?;
+pub(crate) fn paused_with(scene: &str, variables: &[(&str, &str)], measure: bool) -> (Desk, Twin) {
+    let desk = Desk::open_with(&format!("--scene {scene}"), variables);
     let mut twin = Twin::new(Studio::new(Scene::built_in(scene).unwrap()));
     twin.studio.viewer.preferences.display.measure = measure;
     desk.press("space");
@@ -31,7 +26,7 @@ pub(crate) fn paused_with(
     twin.apply(StageCommand::Tick(Step::Next));
     twin.apply(StageCommand::Restart);
     desk.at_tick(0);
-    Some((desk, twin))
+    (desk, twin)
 }
 
 /// Waits for window and twin to look alike, and compares the ends of their recordings: the last command and the
@@ -44,10 +39,8 @@ fn same(desk: &Desk, twin: &mut Twin) {
     assert_eq!(end(&window), end(&twin));
 }
 
-#[test]
-fn the_mouse_works_the_menus_buttons_and_table() {
-    let test = "the_mouse_works_the_menus_buttons_and_table";
-    let Some((desk, mut twin)) = paused(test, "ship") else { return };
+pub(crate) fn the_mouse_works_the_menus_buttons_and_table() {
+    let (desk, mut twin) = paused("ship");
     for name in [
         "ship",
         "spring",
@@ -80,10 +73,8 @@ fn the_mouse_works_the_menus_buttons_and_table() {
     desk.quit();
 }
 
-#[test]
-fn the_mouse_works_the_instruments_and_the_inspector() {
-    let test = "the_mouse_works_the_instruments_and_the_inspector";
-    let Some((desk, mut twin)) = paused(test, "spring") else { return };
+pub(crate) fn the_mouse_works_the_instruments_and_the_inspector() {
+    let (desk, mut twin) = paused("spring");
     for card in INSTRUMENTS {
         // Where not all tabs fit, another group has its name alone.
         if card.group != twin.studio.display().instrument.card().group {
@@ -110,10 +101,8 @@ fn the_mouse_works_the_instruments_and_the_inspector() {
     desk.ends();
 }
 
-#[test]
-fn the_mouse_works_the_guide_and_the_timeline() {
-    let test = "the_mouse_works_the_guide_and_the_timeline";
-    let Some((desk, mut twin)) = paused(test, "spring") else { return };
+pub(crate) fn the_mouse_works_the_guide_and_the_timeline() {
+    let (desk, mut twin) = paused("spring");
     desk.press("shift+period shift+period");
     (0..2).for_each(|_| twin.apply(StageCommand::Second(Step::Next)));
     desk.at_tick(120);
@@ -144,10 +133,8 @@ fn the_mouse_works_the_guide_and_the_timeline() {
     desk.quit();
 }
 
-#[test]
-fn dragging_the_cross_of_the_stability_map_sets_rate_and_parameter() {
-    let test = "dragging_the_cross_of_the_stability_map_sets_rate_and_parameter";
-    let Some((desk, mut twin)) = paused(test, "spring") else { return };
+pub(crate) fn dragging_the_cross_of_the_stability_map_sets_rate_and_parameter() {
+    let (desk, mut twin) = paused("spring");
     let values = twin.studio.race().values(0).to_vec();
     twin.click(&desk, InstrumentGroup::Why.name());
     assert_eq!(twin.studio.display().instrument, Instrument::StabilityMap);
@@ -167,10 +154,8 @@ fn dragging_the_cross_of_the_stability_map_sets_rate_and_parameter() {
     desk.quit();
 }
 
-#[test]
-fn a_typed_spring_is_advised_on_and_remembered() {
-    let test = "a_typed_spring_is_advised_on_and_remembered";
-    let Some((desk, mut twin)) = paused(test, "ship") else { return };
+pub(crate) fn a_typed_spring_is_advised_on_and_remembered() {
+    let (desk, mut twin) = paused("ship");
     twin.click(&desk, "a spring of your own");
     twin.enter(&desk, "stiffness", "50");
     twin.enter(&desk, "frequency", "3");

@@ -21,12 +21,36 @@ pub(in crate::measure) struct Swing {
     /// Largest distance of any coordinate from its centre in each half turn, in amplitudes. A half turn ends when the
     /// swinging coordinate passes its centre. The first one begins at the start, and the last one ends with the motion.
     pub(in crate::measure) half_turns: Vec<f64>,
+    /// Times (s) at the ends of the half turns but for the last, each at the next known moment.
+    pub(in crate::measure) passages: Vec<f64>,
 }
 
 impl Swing {
     /// Returns the largest distance of any coordinate from its centre, in amplitudes.
     pub(in crate::measure) fn widest(&self) -> f64 {
         self.half_turns.iter().copied().fold(0.0, f64::max)
+    }
+
+    /// Returns the width of this swing relative to `other`, which is farthest from 1 in a complete half turn of both at
+    /// about the same time; `None` if there is none. The distances are in metres or the like by these amplitudes. Half
+    /// turns of which nothing is seen do not count.
+    pub(in crate::measure) fn width_beside(
+        &self,
+        other: &Self,
+        [own, others]: [f64; 2],
+    ) -> Option<f64> {
+        let complete = |swing: &Self| -> Vec<([f64; 2], f64)> {
+            let ends = swing.passages.windows(2).map(|ends| [ends[0], ends[1]]);
+            ends.zip(swing.half_turns.iter().skip(1).copied()).collect()
+        };
+        let theirs = complete(other);
+        let seen = VISIBLE * other.widest();
+        let ratios = complete(self).into_iter().filter_map(|([from, to], width)| {
+            let middle = (from + to) / 2.0;
+            let at = theirs.iter().find(|([from, to], _)| (*from..*to).contains(&middle))?;
+            (at.1 > seen).then_some(width * own / (at.1 * others))
+        });
+        ratios.max_by(|a, b| libm::log(*a).abs().total_cmp(&libm::log(*b).abs()))
     }
 
     /// Returns the largest error, in amplitudes, of a harmonic motion that is this many seconds early or late.
@@ -109,13 +133,13 @@ impl BodyTruth {
         }
         let coordinate = (0..n).find(|&i| crossings[i].len() >= 2)?;
         let crossings = std::mem::take(&mut crossings[coordinate]);
-        let passages = &passages[coordinate];
+        let passages = std::mem::take(&mut passages[coordinate]);
         let mut half_turns = vec![0.0_f64; passages.len() + 1];
         for (t, peak) in peaks {
             let half_turn = &mut half_turns[passages.partition_point(|&passed| passed <= t)];
             *half_turn = half_turn.max(peak);
         }
-        Some(Swing { coordinate, crossings, half_turns })
+        Some(Swing { coordinate, crossings, half_turns, passages })
     }
 }
 

@@ -99,6 +99,7 @@ fn half_turns_are_compared_one_by_one_and_missing_ones_count_as_rest() {
         (0..count).map(|i| libm::exp(-rate * i as f64)).collect()
     };
     let swing = |half_turns: Vec<f64>| Swing {
+        passages: Vec::new(),
         coordinate: 0,
         crossings: (0..=turns).map(f64::from).collect(),
         half_turns,

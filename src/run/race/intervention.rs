@@ -18,7 +18,7 @@ pub(crate) struct Interventions {
 
 impl Interventions {
     /// Returns the edits in `race` since its checkpoint for verdicts. A parameter that the script set counts like a
-    /// person's edit. The script's throttle, rudder and state changes are part of the judged motion.
+    /// person's edit. The script's throttle and rudder are part of the judged motion.
     pub(crate) fn in_race(race: &Race, checkpoints: &Checkpoints) -> Self {
         let mut settings: Vec<Action> = Vec::new();
         let is_in_force = |row: &&JournalRow| {

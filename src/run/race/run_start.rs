@@ -86,8 +86,8 @@ impl RunStart {
 /// The checkpoints of a run up to its present tick.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Checkpoints {
-    /// The state right after a person last changed the run, or the script a method, a parameter or the tick rate.
-    /// Script actions on the bodies are part of the judged run.
+    /// The state right after a person last changed the run, or the script a method, a parameter, the tick rate or the
+    /// state of a body. The script's throttle and rudder are part of the judged run.
     pub(super) of_verdicts: Option<Arc<RunStart>>,
     /// The state right after a person last placed or kicked a body.
     pub(super) of_advice: Option<Arc<RunStart>>,
@@ -117,8 +117,8 @@ impl Observer for Checkpoints {
             matches!(action, Action::Place { .. } | Action::Push { .. } | Action::Kick(_));
         let is_set = matches!(action, Action::TickHz(_) | Action::Set { .. });
         // A setting before the first tick is one of the whole run.
-        let is_changed =
-            race.tick > 0 && (switch.is_some() || is_set || acts_on_bodies && is_of_person);
+        let is_changed = race.tick > 0
+            && (switch.is_some() || is_set || acts_on_bodies && (is_of_person || is_moved));
         let is_moved = is_moved && is_of_person;
         if !(acts_on_bodies || is_changed) {
             return;

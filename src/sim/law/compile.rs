@@ -22,9 +22,9 @@ pub(super) struct Compiler<'t> {
 }
 
 /// The names that one part may use.
-struct PartScope<'t> {
-    text: &'t LawText,
-    part: Part,
+pub(super) struct PartScope<'t> {
+    pub(super) text: &'t LawText,
+    pub(super) part: Part,
 }
 
 impl PartScope<'_> {

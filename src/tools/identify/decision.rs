@@ -57,6 +57,11 @@ pub(super) fn decide<'a>(
     body: &LoggedBody,
     is_double: bool,
 ) -> Option<Decision<'a>> {
+    // A spring that is fitted may lose nothing, but gains nothing.
+    let is_spring = |fit: &Fit| body.spring.is_some() || fit.damping_ratio() >= -fit.no_damping();
+    let springs: Vec<&(Candidate, Fit)> = fits.iter().filter(|(_, fit)| is_spring(fit)).collect();
+    let gains = springs.is_empty();
+    let fits = if gains { fits.iter().collect() } else { springs };
     let least = fits.iter().map(|(_, fit)| fit.residual()).fold(f64::INFINITY, f64::min);
     let rounding = rounding(least, is_double);
     let deviance = |(_, fit): &(Candidate, Fit)| fit.deviance(rounding);
@@ -64,17 +69,17 @@ pub(super) fn decide<'a>(
     let by_both =
         |a: &&(Candidate, Fit), b: &&(Candidate, Fit)| with_rarity(a).total_cmp(&with_rarity(b));
     let explains = |(_, fit): &(Candidate, Fit)| fit.residual() <= NO_FIT && !fit.is_systematic();
-    let lowest = fits.iter().map(deviance).fold(f64::INFINITY, f64::min);
+    let lowest = fits.iter().copied().map(deviance).fold(f64::INFINITY, f64::min);
     let may_explain =
         |fitted: &&(Candidate, Fit)| explains(fitted) && deviance(fitted) - lowest < DECISIVE;
-    let closest = fits.iter().filter(may_explain).min_by(by_both);
-    let closest = closest.or_else(|| fits.iter().min_by(by_both))?;
+    let closest = fits.iter().copied().filter(may_explain).min_by(by_both);
+    let closest = closest.or_else(|| fits.iter().copied().min_by(by_both))?;
     let fits_as_well = |fitted: &(Candidate, Fit)| deviance(fitted) - deviance(closest) < DECISIVE;
     let is_plausible =
         |fitted: &(Candidate, Fit)| with_rarity(fitted) - with_rarity(closest) < DECISIVE;
     let apart = SAME.max(SAME_PART * closest.1.residual());
     let (mut same, others): (Vec<_>, Vec<_>) = fits
-        .iter()
+        .into_iter()
         .partition(|fitted| fits_as_well(fitted) && fitted.1.distance(&closest.1) <= apart);
     let nearest = same.iter().map(|(_, fit)| fit.residual()).fold(f64::INFINITY, f64::min);
     same.sort_by_key(|(candidate, fit)| {
@@ -96,7 +101,7 @@ pub(super) fn decide<'a>(
     };
     let unusual = others.iter().copied().filter(is_set_aside).collect();
     let is_doubtful = best.1.is_doubtful() && !is_clear;
-    let conclusion = if !explains(best) {
+    let conclusion = if gains || !explains(best) {
         Conclusion::Unknown
     } else if says_nothing || is_doubtful || rival.is_some_and(is_plausible) {
         Conclusion::CannotTell

@@ -4,6 +4,7 @@ use super::candidates::Candidate;
 use super::effective::Effective;
 use super::logged::{Log, LoggedBody};
 use super::motion::{run, run_by_map};
+use super::start::matching_spring;
 use crate::sim::least_squares;
 
 /// Number of Gauss-Newton iterations if the log has the initial velocity; a linear motion needs one.
@@ -17,7 +18,7 @@ const SETTLED: f64 = 1e-6;
 /// Displacement for the derivatives, in units of the scale.
 const DISPLACEMENT: f64 = 1e-4;
 /// Largest residual that may be rounding in a log of single precision.
-const PRECISE_IN_SINGLE: f64 = 5e-5;
+const PRECISE_IN_SINGLE: f64 = 1.5e-5;
 /// Largest residual that may be rounding in a log of double precision by an engine, which may keep a mass in single
 /// precision.
 const PRECISE_OF_ENGINE: f64 = 1e-5;
@@ -25,6 +26,8 @@ const PRECISE_OF_ENGINE: f64 = 1e-5;
 const PRECISE_IN_DOUBLE: f64 = 1e-8;
 /// Largest residual that is rounding alone.
 const EXACT: f64 = 1e-9;
+/// Damping ratio that is none.
+const NO_DAMPING: f64 = 1e-6;
 /// Displacement in a run that starts from nothing, in units of the scale.
 const DISPLACEMENT_FROM_NOTHING: f64 = 1e-9;
 /// A runaway starts below this share of the scale, and so below the noise.
@@ -35,6 +38,8 @@ const HALVINGS: u32 = 8;
 const MIN_ROWS_OF_NOISE: usize = 20;
 /// Tolerated autocorrelation beyond the 3σ limit of white noise.
 const AUTOCORRELATION_SLACK: f64 = 0.1;
+/// Largest part of noise, relative to its root mean square; 3000 rows of normal noise reach 3.6 on average.
+const FEW: f64 = 6.0;
 /// Largest lag of the autocorrelation, in rows.
 const LAGS: usize = 3;
 
@@ -68,13 +73,22 @@ fn first_velocity(log: &Log, tick_s: f64) -> f64 {
     first.v.unwrap_or(slope)
 }
 
-/// Fits `candidate` to a log at this tick rate. The fit of an unknown rest starts at `first_rest`. `None` if the
-/// candidate cannot run on the body, or if its run diverges.
+/// Where a fit starts.
+#[derive(Clone, Copy)]
+pub(super) struct Start {
+    pub(super) tick_hz: f64,
+    /// The rest, if it is fitted.
+    pub(super) rest: Option<f64>,
+    /// The motion that the log shows, from which the spring is found if it is fitted.
+    pub(super) seen: Option<Effective>,
+}
+
+/// Fits `candidate` to a log. `None` if the candidate cannot run on the body, or if its run diverges.
 pub(super) fn fit(
     log: &Log,
     body: &LoggedBody,
     candidate: Candidate,
-    (tick_hz, first_rest): (f64, Option<f64>),
+    Start { tick_hz, rest: first_rest, seen }: Start,
 ) -> Option<Fit> {
     let tick_s = 1.0 / tick_hz;
     let scale = log.scale();
@@ -82,9 +96,16 @@ pub(super) fn fit(
     let is_spring_known = body.spring.is_some();
     let is_rest_known = body.rest.is_some();
     let rest = *body.rest.get_or_insert_with(|| first_rest.unwrap_or(0.0));
+    let mut other_spring = None;
     if !is_spring_known {
         let there = log.resting_at_zero(rest);
-        body.spring = Some(Effective::of_log(&there, &body, tick_s)?.spring()?);
+        let of_log = Effective::of_log(&there, &body, tick_s);
+        let spring = |seen: Effective| {
+            Some(seen.spring()?).filter(|spring| spring.iter().all(|part| part.is_finite()))
+        };
+        let seen = seen.or(of_log)?;
+        body.spring = Some(of_log.and_then(spring).or_else(|| spring(seen))?);
+        other_spring = matching_spring(candidate, &body, tick_s, &seen);
     }
     let mut start = [log.rows()[0].x, body.v0.unwrap_or(first_velocity(log, tick_s))];
     let is_runaway = log.has_velocities()
@@ -107,6 +128,16 @@ pub(super) fn fit(
     let mapped = |body: &LoggedBody, start: [f64; 2]| {
         run_by_map(candidate, body, start, tick_s, ticks()).map(|states| in_units(&states, scale))
     };
+    if let Some(spring) = other_spring {
+        let other = LoggedBody { spring: Some(spring), ..body.clone() };
+        let off = |body: &LoggedBody| {
+            let states = stepped(body, start)?;
+            Some(squares(&residuals(log, &states, scale))).filter(|off| off.is_finite())
+        };
+        if off(&other).is_some_and(|there| off(&body).is_none_or(|here| there < here)) {
+            body = other;
+        }
+    }
     let refine = |go: &Run<'_>| {
         let (mut start, mut body) = (start, body.clone());
         let mut now = go(&body, start)?;
@@ -223,6 +254,17 @@ impl Fit {
         mean_square(&self.residuals.concat()).sqrt()
     }
 
+    /// Returns the damping ratio of the fitted spring.
+    pub(super) fn damping_ratio(&self) -> f64 {
+        let [stiffness, damping] = self.body.spring.unwrap_or_default();
+        damping / (2.0 * stiffness.abs().sqrt()).max(f64::MIN_POSITIVE)
+    }
+
+    /// Returns the largest damping ratio that may be the rounding or the noise of the log.
+    pub(super) fn no_damping(&self) -> f64 {
+        NO_DAMPING + self.residual()
+    }
+
     /// Returns minus twice the log-likelihood, up to a constant. Each column has its own noise, never less than
     /// `rounding`.
     pub(super) fn deviance(&self, rounding: f64) -> f64 {
@@ -268,7 +310,7 @@ impl Fit {
         self.is_autocorrelated(self.precise)
     }
 
-    /// Whether the residual is autocorrelated and larger than `precise`.
+    /// Whether the residual is larger than `precise`, and autocorrelated or in a few rows.
     fn is_autocorrelated(&self, precise: f64) -> bool {
         self.residuals.iter().any(|residuals| {
             let square = mean_square(residuals);
@@ -278,7 +320,12 @@ impl Fit {
                 (mean / square).abs()
                     > 3.0 / (residuals.len() as f64).sqrt() + AUTOCORRELATION_SLACK
             };
-            square.sqrt() > precise && (1..=LAGS.min(residuals.len() - 1)).any(follows)
+            let is_of_few = || {
+                let largest = residuals.iter().fold(0.0_f64, |largest, r| largest.max(r.abs()));
+                residuals.len() >= MIN_ROWS_OF_NOISE && largest > FEW * square.sqrt()
+            };
+            let lags = 1..=LAGS.min(residuals.len() - 1);
+            square.sqrt() > precise && (lags.into_iter().any(follows) || is_of_few())
         })
     }
 }

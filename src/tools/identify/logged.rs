@@ -6,6 +6,7 @@ use csv::ByteRecord;
 
 use columns::{Columns, OF_X, TimeColumn};
 
+use crate::scene::clip;
 use crate::sim::number::significant;
 use crate::table::{
     Course, Decimal, Heading, Moment, Reading, TableError, TableOptions, TableReader, Taken, Unit,
@@ -51,6 +52,9 @@ pub struct LogError {
     pub line: u64,
     /// The caller's setting that may be wrong, if the fault suggests one.
     pub mistaken: Option<LogSetting>,
+    /// A column and its cell for each body, at most 16, if the log has several rows at each time. As a
+    /// [filter](TableOptions::filter), each reads one body.
+    pub bodies: Vec<(String, String)>,
     fault: String,
 }
 
@@ -113,6 +117,8 @@ const SURVEYED: u64 = 1000;
 const STEPS_ALIKE: f64 = 1e-6;
 /// Smallest share of repeated times with which each step has two rows.
 const ALL_TWICE: f64 = 0.45;
+/// Largest number of bodies of one log that are told apart.
+const MAX_BODIES: usize = 16;
 /// Largest distance of the usual step from a tick, in ticks, of rows that are ticks whatever their times.
 const OFF_RATE: f64 = 0.02;
 /// Largest share of rows that count as late.
@@ -191,7 +197,9 @@ impl Rows {
                 Some(_) => "the time".to_owned(),
                 None => format!("tick {}", since.round()),
             };
-            return Err(format!("{place} does not follow the row before; put rows in order").into());
+            // The rows of several bodies may follow each other.
+            let what = format!("{place} does not follow the row before; put rows in order");
+            return Err(Fault { mistaken: Some(LogSetting::Filter), what });
         }
         let is_over = if self.off.is_some() { self.rows.len() as f64 } else { since.round() };
         if is_over > Log::MAX_TICKS as f64 {
@@ -248,7 +256,7 @@ impl Log {
         let at = |line: u64| {
             move |Fault { mistaken, what }: Fault| {
                 let name = name.to_owned();
-                LogError { name, line, mistaken, fault: what }
+                LogError { name, line, mistaken, bodies: Vec::new(), fault: what }
             }
         };
         let broken = |error: TableError| at(error.line)(error.fault.to_string().into());
@@ -310,24 +318,52 @@ impl Log {
         if let (Some(time), Some((unit, _))) = (columns.time.column(), unit) {
             table.limit_by(time, unit);
         }
+        let header = table.header().clone();
+        // The error that names the bodies of a log, if a column tells them apart.
+        let several_bodies = |found: &str, pair: &[ByteRecord; 2]| {
+            let of = columns.of_bodies(pair)?;
+            let name = String::from_utf8_lossy(&header[of]).trim().to_owned();
+            let (mut bodies, mut table) = (Vec::<(String, String)>::new(), begin().ok()?);
+            let mut record = ByteRecord::new();
+            while let Ok(Some(_)) = table.next(&mut record) {
+                let cell = String::from_utf8_lossy(record.get(of).unwrap_or_default());
+                let body = (name.clone(), cell.trim().to_owned());
+                if !bodies.contains(&body) {
+                    bodies.push(body);
+                }
+                if bodies.len() > MAX_BODIES {
+                    return None;
+                }
+            }
+            let cell = bodies.first().map(|(_, cell)| clip(cell))?;
+            let what = format!("{found}; --where {}={cell} takes one", clip(&name));
+            let fault = Fault { mistaken: Some(LogSetting::Filter), what };
+            Some(LogError { bodies, ..at(header_line)(fault) })
+        };
         let mut read = Rows { tick_hz, per_second, ..Rows::default() };
         let mut record = ByteRecord::new();
         let mut last = 0;
         while let Some(line) = table.next(&mut record).map_err(broken)? {
             let row = table.taken().0[1];
-            let is_over = read.add(&columns, &record, (line, row)).map_err(at(line))?;
-            if is_over {
-                break;
+            match read.add(&columns, &record, (line, row)) {
+                Ok(true) => break,
+                Ok(false) => last = row,
+                Err(fault) => {
+                    let is_of_order = fault.mistaken == Some(LogSetting::Filter);
+                    let pair = [read.last.clone(), record.clone()];
+                    let bodies =
+                        is_of_order.then(|| several_bodies("rows of several bodies", &pair));
+                    return Err(bodies.flatten().unwrap_or_else(|| at(line)(fault)));
+                }
             }
-            last = row;
         }
         let of = table.count_rest();
         let Rows { rows, all, since: ticks, off, repeated, pair, .. } = read;
         let twice = repeated.len() as f64 > ALL_TWICE * all.len() as f64;
-        if let (true, Some((body, cell))) = (twice, pair.and_then(|pair| columns.of_bodies(&pair)))
+        if let (true, Some(pair)) = (twice, pair)
+            && let Some(error) = several_bodies("two rows at each time", &pair)
         {
-            let what = format!("two rows at each time; --where {body}={cell} takes one");
-            return Err(at(header_line)(Fault { mistaken: Some(LogSetting::Filter), what }));
+            return Err(error);
         }
         let mut taken = Taken { rows: [table.taken().0[0], last], of, unit, ..Taken::default() };
         taken.left_out = columns.left_out();

@@ -105,16 +105,26 @@ pub(super) fn run_by_map(
 ) -> Option<Vec<[f64; 2]>> {
     let rest = body.rest.unwrap_or(0.0);
     let pushed = LoggedBody { rest: None, ..body.clone() };
-    let free = LoggedBody { push: 0.0, ..pushed.clone() };
-    let after = |body, start| Some(*run(candidate, body, start, tick_s, 0..2)?.last()?);
-    let still = after(&pushed, [0.0; 2])?;
-    let of_x = after(&free, [SLOW, 0.0])?.map(|change| change / SLOW);
-    let of_v = after(&free, [0.0, SLOW])?.map(|change| change / SLOW);
+    let still = *run(candidate, &pushed, [0.0; 2], tick_s, 0..2)?.last()?;
+    let map = map_of_tick(candidate, body, tick_s)?;
     let at_start = [start[0] - rest, start[1]];
     let states = states_at(ticks, 1, at_start, |[x, v]| {
-        Some([0, 1].map(|i| still[i] + of_x[i] * x + of_v[i] * v))
+        Some([0, 1].map(|i| still[i] + map[i][0] * x + map[i][1] * v))
     })?;
     Some(states.into_iter().map(|[x, v]| [x + rest, v]).collect())
+}
+
+/// Returns the map of the first tick of a motion about its rest, without a push: the rows are of x and v. `None` if the
+/// candidate cannot run on the body.
+pub(super) fn map_of_tick(
+    candidate: Candidate,
+    body: &LoggedBody,
+    tick_s: f64,
+) -> Option<[[f64; 2]; 2]> {
+    let free = LoggedBody { push: 0.0, rest: None, ..body.clone() };
+    let after = |start| Some(*run(candidate, &free, start, tick_s, 0..2)?.last()?);
+    let [x, v] = [after([SLOW, 0.0])?, after([0.0, SLOW])?];
+    Some([0, 1].map(|i| [x[i] / SLOW, v[i] / SLOW]))
 }
 
 #[cfg(test)]

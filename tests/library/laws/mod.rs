@@ -10,6 +10,7 @@ use regatta::studio::TICK_LADDER;
 mod drawn;
 mod language;
 mod random;
+mod rate;
 mod truth;
 
 use crate::dice::Dice;

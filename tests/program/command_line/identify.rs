@@ -117,6 +117,46 @@ fn a_log_that_cannot_be_read_is_refused_with_its_line_and_a_remedy() {
 }
 
 #[test]
+fn each_body_of_a_log_is_answered_by_its_rows_alone() {
+    let folder = tempdir().unwrap();
+    // Semi-implicit Euler at 60 Hz on two springs of 40 N/m and 2 kg.
+    let body = |name: &str, x: f64, v: f64| -> Vec<String> {
+        let mut state = [x, v];
+        let row = |tick: u32| {
+            let [x, v] = state;
+            let v_after = v + (-20.0 * x - 0.25 * v) / 60.0;
+            state = [x + v_after / 60.0, v_after];
+            format!("{:?},{name},{x:?},{v:?}", f64::from(tick) / 60.0)
+        };
+        (0..200).map(row).collect()
+    };
+    let [a, b] = [body("a", 1.0, 0.0), body("b", -0.5, 1.0)];
+    let by_time: Vec<String> = a.iter().zip(&b).map(|(a, b)| format!("{a}\n{b}")).collect();
+    for (rows, found) in [
+        (by_time, "two rows at each time; --where body=a takes one"),
+        ([a, b].concat(), "rows of several bodies; --where body=a takes one"),
+    ] {
+        let text = format!("t,body,x,v\n{}\n", rows.join("\n"));
+        fs::write(folder.path().join("log.csv"), text).unwrap();
+        let output =
+            run_in(folder.path(), "identify log.csv --k 40 --c 0.5 --mass 2 --format json");
+        assert_eq!(output.status.code(), Some(0));
+        assert!(stderr(&output).contains(found), "{}", stderr(&output));
+        let first: Value = serde_json::from_slice(&output.stdout).unwrap();
+        assert_eq!(first["of"], "body=a");
+        for answer in [&first, &first["others"]["body=b"]] {
+            assert_eq!(answer["word"], "identified");
+            let mut named = answer["also"].as_array().unwrap().iter();
+            assert!(named.any(|it| it["method"] == "semi-implicit-euler"), "{answer}");
+        }
+        let output = run_in(folder.path(), "identify log.csv --k 40 --c 0.5 --mass 2");
+        let said = String::from_utf8(output.stdout).unwrap();
+        let heads = said.lines().filter(|line| line.starts_with("body="));
+        assert_eq!(heads.collect::<Vec<_>>(), ["body=a", "body=b"]);
+    }
+}
+
+#[test]
 fn an_unexplained_log_is_unknown_with_null_fields() {
     let folder = tempdir().unwrap();
     // A spring that is not given is read off ticks that follow each other.

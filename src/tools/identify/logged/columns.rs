@@ -177,8 +177,8 @@ impl Columns {
         })
     }
 
-    /// Returns a column whose cells tell the two bodies apart that a log has at each time, and the first cell.
-    pub(super) fn of_bodies(&self, pair: &[ByteRecord; 2]) -> Option<(String, String)> {
+    /// Returns a column whose cells tell the bodies apart that a log has at each time.
+    pub(super) fn of_bodies(&self, pair: &[ByteRecord; 2]) -> Option<usize> {
         let differs = |at: &usize| {
             let cells = [&pair[0][*at], &pair[1][*at]];
             let is_text = |cell: &[u8]| number(cell, self.decimal).is_none_or(|n| n.fract() == 0.0);
@@ -186,10 +186,7 @@ impl Columns {
                 && cells.into_iter().all(is_text)
                 && Some(*at) != self.time.column()
         };
-        let at =
-            (0..self.names.len()).find(|at| differs(at) && *at != self.x && Some(*at) != self.v)?;
-        let cell = String::from_utf8_lossy(&pair[0][at]).trim().to_owned();
-        Some((clip(&self.names[at]), clip(&cell)))
+        (0..self.names.len()).find(|at| differs(at) && *at != self.x && Some(*at) != self.v)
     }
 }
 

@@ -1,0 +1,63 @@
+//! The maker of a log of a stiff spring is named without its stiffness, and no other one.
+
+use regatta::sim::integrators::{fresh, method, problem};
+use regatta::sim::{State, System};
+use regatta::table::TableOptions;
+use regatta::tools::identify::{Conclusion, Identification, Log, LoggedBody, identify};
+
+/// A spring with this stiffness and damping per unit of mass.
+struct Spring([f64; 2]);
+
+impl System for Spring {
+    type Vector = f64;
+
+    fn acceleration(&self, _t: f64, x: &f64, v: &f64, a: &mut f64) {
+        *a = -(self.0[0] * x + self.0[1] * v);
+    }
+}
+
+/// A log of a spring with this frequency and damping ratio, let go at 1.
+fn log(id: &str, [hz, ratio, tick_hz]: [f64; 3], rows: usize) -> Log {
+    let omega = std::f64::consts::TAU * hz;
+    let spring = problem(Spring([omega * omega, 2.0 * ratio * omega]));
+    let mut stepper = fresh(method(id).expect("a method"));
+    let mut state = State { q: 1.0, v: 0.0 };
+    let mut text = "tick,x,v\n".to_owned();
+    for tick in 0..rows {
+        text += &format!("{tick},{:?},{:?}\n", state.q, state.v);
+        let t = tick as f64 / tick_hz;
+        stepper.steps(&spring, t, 1.0 / tick_hz, 1, &mut state).expect("a step");
+    }
+    Log::parse("log.csv", &text, &TableOptions::default(), tick_hz).expect("a log")
+}
+
+fn names(found: &Identification) -> Vec<&'static str> {
+    let best = found.best.iter().map(|best| best.candidate.method.id);
+    best.chain(found.also.iter().map(|also| also.method.id)).collect()
+}
+
+#[test]
+fn the_maker_of_a_stiff_spring_is_named_without_its_stiffness() {
+    for (id, numbers, rows) in [
+        ("semi-implicit-euler", [8.0, 0.0, 60.0], 300),
+        ("semi-implicit-euler", [5.0, 0.0, 30.0], 120),
+        ("semi-implicit-euler", [15.0, 0.0, 60.0], 120),
+        ("semi-implicit-euler", [8.0, 0.0, 30.0], 300),
+        ("semi-implicit-euler", [12.0, 0.05, 60.0], 120),
+        ("velocity-verlet", [8.0, 0.0, 60.0], 120),
+        ("velocity-verlet", [15.0, 0.0, 60.0], 120),
+        ("implicit-midpoint", [15.0, 0.1, 60.0], 120),
+        ("implicit-euler", [8.0, 0.1, 60.0], 120),
+        ("rk4", [8.0, 0.0, 60.0], 120),
+    ] {
+        let log = log(id, numbers, rows);
+        let found = identify(&log, &LoggedBody::default(), numbers[2]).expect("an answer");
+        assert_ne!(found.conclusion, Conclusion::Unknown, "{id} {numbers:?}");
+        let named = names(&found);
+        // One map under two springs cannot be told apart.
+        let rival = found.runner_up.map(|rival| rival.candidate.method.id);
+        let is_named = named.contains(&id);
+        let is_open = found.conclusion == Conclusion::CannotTell;
+        assert!(is_named || is_open && rival == Some(id), "{id} {numbers:?}: {named:?} {rival:?}");
+    }
+}
