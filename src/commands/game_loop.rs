@@ -105,11 +105,11 @@ pub(super) struct LoopArgs {
     /// A constant of the loop's lines, such as max_ticks=4
     ///
     /// `regatta list engine-loops --format json` has those of engines. Give the option again for each.
-    #[arg(long = "set", value_name = "NAME=N", value_parser = setting)]
+    #[arg(hide_short_help = true, long = "set", value_name = "NAME=N", value_parser = setting)]
     settings: Vec<(String, f64)>,
 
     /// What a tick costs, for loops that count it [default: nothing]
-    #[arg(long, value_name = "ms")]
+    #[arg(hide_short_help = true, long, value_name = "ms")]
     #[arg(value_parser = clap::value_parser!(u32).range(..=60_000))]
     cost_ms: Option<u32>,
 
@@ -133,7 +133,7 @@ pub(super) struct LoopArgs {
     shown: Option<String>,
 
     /// The speed of the column of --shown in units a second [default: fitted]
-    #[arg(long, value_name = "N", value_parser = speed, allow_negative_numbers = true, requires = "shown")]
+    #[arg(hide_short_help = true, long, value_name = "N", value_parser = speed, allow_negative_numbers = true, requires = "shown")]
     speed: Option<f64>,
 
     #[command(flatten)]
@@ -160,14 +160,14 @@ pub(super) struct LoopArgs {
     max_ticks: Option<u32>,
 
     /// Whether later frames make the ticks beyond the most of a frame: drop or keep
-    #[arg(long, value_name = "drop|keep", default_value = "drop", value_parser = excess)]
+    #[arg(hide_short_help = true, long, value_name = "drop|keep", default_value = "drop", value_parser = excess)]
     excess: Excess,
 
     /// What a long frame counts as, before any other limit
     ///
     /// clamp:100 counts at most 100 ms; replace:200=1 counts a frame above 200 ms as 1 ms; last:66.7 counts one above
     /// 66.7 ms as the last one that was not. Ticks then have no other limit than --max-ticks.
-    #[arg(long, value_name = "RULE", value_parser = long_frame, conflicts_with = "max_frame_ms")]
+    #[arg(hide_short_help = true, long, value_name = "RULE", value_parser = long_frame, conflicts_with = "max_frame_ms")]
     long_frame: Option<LongFrame>,
 
     /// The longest frame that is simulated [default: each loop's own]
