@@ -313,7 +313,7 @@ fn an_engine_runs_beside_the_loops_and_is_not_advised() {
     let mut studio = studio();
     let advised = studio.advised();
     for id in ["bevy", "phaser"] {
-        let index = crate::loops::ENGINES.iter().position(|card| card.id == id).unwrap();
+        let index = ENGINES.iter().position(|card| card.id == id).unwrap();
         studio.choose_engine(index);
         assert!(!studio.is_complete() && studio.lanes().len() == POLICIES.len() + 1);
         run(&mut studio);

@@ -117,7 +117,7 @@ const SURVEYED: u64 = 1000;
 const STEPS_ALIKE: f64 = 1e-6;
 /// Smallest share of repeated times with which each step has two rows.
 const ALL_TWICE: f64 = 0.45;
-/// Largest number of bodies of one log that are told apart.
+/// Largest number of bodies of one log that `identify` answers one by one.
 const MAX_BODIES: usize = 16;
 /// Largest distance of the usual step from a tick, in ticks, of rows that are ticks whatever their times.
 const OFF_RATE: f64 = 0.02;
