@@ -757,7 +757,79 @@ whole-refresh\t''
 snapped\t''
 hysteresis\t''
 median\t''
-slow-down\t''"
+slow-down\t''
+arcade\t''
+babylon-lockstep\t''
+bevy\t''
+cannon-es\t''
+colyseus-timer\t''
+excalibur\t''
+excalibur-max60\t''
+fixedstep\t''
+framesync\t''
+godot\t''
+gsap\t''
+gsap-fps60\t''
+kaplay-fixed\t''
+kivy-interval\t''
+kontra\t''
+littlejs\t''
+love\t''
+mainloop-js\t''
+matter-runner\t''
+melonjs\t''
+p2-es\t''
+panda3d-bullet\t''
+phaser\t''
+phaser-arcade\t''
+phaser-arcade-limit60\t''
+phaser-limit60\t''
+pixi\t''
+pixi-max60\t''
+playcanvas\t''
+pygame-tick\t''
+pyglet-interval\t''
+r3-rapier\t''
+three-timer\t''
+unity\t''
+unreal\t''"
+complete -c regatta -n "__fish_regatta_using_subcommand loop" -l engine -d 'The loop of your engine, with what it does to your game in three lines' -r -f -a "arcade\t''
+babylon-lockstep\t''
+bevy\t''
+cannon-es\t''
+colyseus-timer\t''
+excalibur\t''
+excalibur-max60\t''
+fixedstep\t''
+framesync\t''
+godot\t''
+gsap\t''
+gsap-fps60\t''
+kaplay-fixed\t''
+kivy-interval\t''
+kontra\t''
+littlejs\t''
+love\t''
+mainloop-js\t''
+matter-runner\t''
+melonjs\t''
+p2-es\t''
+panda3d-bullet\t''
+phaser\t''
+phaser-arcade\t''
+phaser-arcade-limit60\t''
+phaser-limit60\t''
+pixi\t''
+pixi-max60\t''
+playcanvas\t''
+pygame-tick\t''
+pyglet-interval\t''
+r3-rapier\t''
+three-timer\t''
+unity\t''
+unreal\t''"
+complete -c regatta -n "__fish_regatta_using_subcommand loop" -l set -d 'A constant of the loop\'s lines, such as max_ticks=4' -r
+complete -c regatta -n "__fish_regatta_using_subcommand loop" -l cost-ms -d 'What a tick costs, for loops that count it [default: nothing]' -r
 complete -c regatta -n "__fish_regatta_using_subcommand loop" -l trace -d 'A trace, or several [default: all built-in ones]' -r -f -a "steady-60\t''
 steady-59.94\t''
 steady-75\t''
@@ -783,11 +855,15 @@ complete -c regatta -n "__fish_regatta_using_subcommand loop" -l end -d 'Take th
 complete -c regatta -n "__fish_regatta_using_subcommand loop" -l rows -d 'Take these rows, such as 3001..8447' -r
 complete -c regatta -n "__fish_regatta_using_subcommand loop" -l where -d 'Take the rows whose cell in COLUMN is VALUE' -r
 complete -c regatta -n "__fish_regatta_using_subcommand loop" -l separator -d 'The separator of the cells: a character, tab or space [default: found]' -r
+complete -c regatta -n "__fish_regatta_using_subcommand loop" -l shown -d 'The column of the log with the moment that a frame shows, which is a row of its own' -r
+complete -c regatta -n "__fish_regatta_using_subcommand loop" -l speed -d 'The speed of the column of --shown in units a second [default: fitted]' -r
 complete -c regatta -n "__fish_regatta_using_subcommand loop" -l tick-hz -d 'Ticks per second [default: the scene\'s]' -r
 complete -c regatta -n "__fish_regatta_using_subcommand loop" -l step -d 'The length of a tick, in place of --tick-hz' -r
 complete -c regatta -n "__fish_regatta_using_subcommand loop" -l display-hz -d 'The refresh rate [default: the trace\'s]' -r
 complete -c regatta -n "__fish_regatta_using_subcommand loop" -l fps -d 'Frames per second of a game with even frames [default: the display\'s]' -r
 complete -c regatta -n "__fish_regatta_using_subcommand loop" -l max-ticks -d 'The most ticks in a frame [default: each loop\'s own]' -r
+complete -c regatta -n "__fish_regatta_using_subcommand loop" -l excess -d 'Whether later frames make the ticks beyond the most of a frame: drop or keep' -r
+complete -c regatta -n "__fish_regatta_using_subcommand loop" -l long-frame -d 'What a long frame counts as, before any other limit' -r
 complete -c regatta -n "__fish_regatta_using_subcommand loop" -l max-frame-ms -d 'The longest frame that is simulated [default: each loop\'s own]' -r
 complete -c regatta -n "__fish_regatta_using_subcommand loop" -l scene -d 'A scene or the file of one' -r -f -a "harbour\t''
 spring\t''
@@ -874,6 +950,7 @@ complete -c regatta -n "__fish_regatta_using_subcommand loop" -l out -d 'The fil
 complete -c regatta -n "__fish_regatta_using_subcommand loop" -l frame-rows -d 'Write a line of CSV for each frame into FILE' -r -F
 complete -c regatta -n "__fish_regatta_using_subcommand loop" -l plot -d 'Draw the motion of each loop as PNG into FILE' -r -F
 complete -c regatta -n "__fish_regatta_using_subcommand loop" -l all -d 'Compare all policies'
+complete -c regatta -n "__fish_regatta_using_subcommand loop" -l engines -d 'Compare the loops of all engines'
 complete -c regatta -n "__fish_regatta_using_subcommand loop" -l no-header -d 'The first line is already a row'
 complete -c regatta -n "__fish_regatta_using_subcommand loop" -l force -d 'Replace the files that are there'
 complete -c regatta -n "__fish_regatta_using_subcommand loop" -s h -l help -d 'Print help (see more with \'--help\')'
