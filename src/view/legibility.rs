@@ -184,7 +184,10 @@ fn every_text_of_every_scene_is_legible_alone_and_racing() {
         // Keeps the verdicts of the race, because those of a net take seconds.
         studio.apply(StageCommand::ToggleRace);
         move_on(&mut studio);
-        assert!(unanswered_request(&studio.deck, &studio.viewer).is_none());
+        if unanswered_request(&studio.deck, &studio.viewer).is_some() {
+            assert!(!studio.scene().script.is_empty(), "a kick of the script begins a verdict");
+            studio.analyse();
+        }
         assert_legible(&studio, &format!("{}, alone", scene.name));
     });
 }

@@ -159,14 +159,17 @@ fn each_body_of_a_log_is_answered_by_its_rows_alone() {
 #[test]
 fn an_unexplained_log_is_unknown_with_null_fields() {
     let folder = tempdir().unwrap();
-    // A spring that is not given is read off ticks that follow each other.
-    let row = |tick: u32| format!("{tick},{}", (0.1 * f64::from(tick)).cos());
-    let rows: Vec<String> = (0..60).map(|i| row(3 * i)).collect();
-    fs::write(folder.path().join("log.csv"), format!("tick,x\n{}\n", rows.join("\n"))).unwrap();
+    // A method makes even ticks.
+    let row = |n: u32| {
+        let t = 0.05 * f64::from(n) + 0.013 * f64::from(n % 3);
+        format!("{t},{}", (6.0 * t).cos())
+    };
+    let rows: Vec<String> = (0..60).map(row).collect();
+    fs::write(folder.path().join("log.csv"), format!("t,x\n{}\n", rows.join("\n"))).unwrap();
     let output = run_in(folder.path(), "identify log.csv --tick-hz 60");
     assert_eq!(output.status.code(), Some(0));
     let said = String::from_utf8(output.stdout).unwrap();
-    assert!(said.starts_with("unknown: no method comes near"), "{said}");
+    assert!(said.starts_with("unknown: the rows are at uneven times"), "{said}");
     let output = run_in(folder.path(), "identify log.csv --tick-hz 60 --format json");
     let found: Value = serde_json::from_slice(&output.stdout).unwrap();
     assert_eq!((&found["word"], &found["best"]), (&"unknown".into(), &Value::Null));

@@ -383,13 +383,13 @@ impl Reader<'_> {
             }
         }
         let written = quoted(&self.text[name.clone()]);
+        let one_part = |scan: &Self| {
+            format!("`{}` is one part of a value", quoted(scan.text[whole(scan)].trim()))
+        };
         let operator = ASSIGNMENTS.iter().find(|(sign, _)| self.rest().starts_with(sign));
         let Some((sign, joins)) = operator.filter(|_| !self.rest().starts_with("==")) else {
             let (what, remedy) = match self.rest().chars().next() {
-                Some('.' | '[') => (
-                    format!("`{}` is one part of a value", quoted(self.text[whole(self)].trim())),
-                    "a step moves one number: write `x` for its position and `v` for its velocity",
-                ),
+                Some('.' | '[') => (one_part(self), ONE_NUMBER),
                 Some('(') => (
                     format!("`{written}(…)` is a call"),
                     "write an assignment, such as `x += v * dt`",
@@ -412,8 +412,8 @@ impl Reader<'_> {
         }
         if let Some(index) = index {
             if !joins.is_empty() {
-                let remedy = "write `=`, and the number before it in the value";
-                return fault(whole(self), "a number of an array is not joined", remedy);
+                let remedy = format!("{ONE_NUMBER}; an array of a loop takes `=`");
+                return fault(whole(self), one_part(self), remedy);
             }
             return Ok(match is_memory && declares.is_some() {
                 true => Statement::Array { name, size: index, value },
@@ -426,6 +426,10 @@ impl Reader<'_> {
         })
     }
 }
+
+/// How to write what is one part of a value.
+const ONE_NUMBER: &str =
+    "a step moves one number: write `x` for its position and `v` for its velocity";
 
 /// Whether a statement continues after the end of a line.
 fn continues_on_next_line(before: &str, after: &str) -> bool {
