@@ -1,5 +1,6 @@
 //! `regatta loop`: measures how game loops distort motion over the frames of a display.
 
+use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::Ordering;
 
@@ -375,13 +376,8 @@ impl LoopArgs {
             }
             (policies, _) => policies.to_vec(),
         };
-        let mut seen = Vec::new();
-        policies.retain(|card| {
-            !seen.contains(&card.id) && {
-                seen.push(card.id);
-                true
-            }
-        });
+        let mut seen = HashSet::new();
+        policies.retain(|card| seen.insert(card.id));
         let tick_hz = self.tick_rate.tick_rate().map(|hz| ("hz".to_owned(), f64::from(hz)));
         let has = |card: &PolicyCard, name: &str| {
             let mut constants = card.constants.split(", ");

@@ -2,6 +2,7 @@
 
 use std::sync::LazyLock;
 
+use super::policies::VARIABLE;
 use super::policy::{Build, Engine, PolicyCard};
 use crate::run::race::Interpolation;
 use crate::sim::law::{ExpressionFault, LoopText};
@@ -52,18 +53,13 @@ pub static ENGINES: LazyLock<Vec<PolicyCard>> = LazyLock::new(|| {
         "unity",
         "unreal",
     ];
-    files
-        .into_iter()
-        .map(|(id, text)| card(id, text).expect("a file that the tests read"))
-        .collect()
+    let read = |text| LoopText::read(text).expect("a file that the tests read");
+    files.into_iter().map(|(id, text)| card(id, text, read(text))).collect()
 });
 
-/// Returns the card of lines under an id. A remark `# key: value` in the text gives its name, version and advice.
-///
-/// # Errors
-/// The first fault of the lines.
-fn card(id: &'static str, text: &'static str) -> Result<PolicyCard, ExpressionFault> {
-    let lines = LoopText::read(text)?;
+/// Returns the card of the lines of a text under an id. A remark `# key: value` in the text gives its name, version and
+/// advice.
+fn card(id: &'static str, text: &'static str, lines: LoopText) -> PolicyCard {
     let (shows, has_fixed_tick) = (lines.shows(), lines.has_fixed_tick());
     let claim = |key: &str| {
         let mut remarks = text.lines().filter_map(|line| line.strip_prefix("# "));
@@ -75,7 +71,7 @@ fn card(id: &'static str, text: &'static str) -> Result<PolicyCard, ExpressionFa
     let settings: Vec<String> =
         settings.map(|(name, _, value)| format!("{name}={value}")).collect();
     let name = Some(claim("name")).filter(|name| !name.is_empty()).unwrap_or(id);
-    Ok(PolicyCard {
+    PolicyCard {
         id,
         name,
         formula: claim("gives"),
@@ -84,11 +80,8 @@ fn card(id: &'static str, text: &'static str) -> Result<PolicyCard, ExpressionFa
         users: name,
         source: claim("known"),
         drawing: if shows { Interpolation::Linear } else { Interpolation::Raw },
-        has_render_tick: false,
         has_fixed_tick,
         needs_exact_clock: has_fixed_tick && !shows && claim("steady").is_empty(),
-        has_max_ticks: false,
-        is_usual: false,
         snippets: &[],
         build: Build::Lines(Box::leak(Box::new(lines))),
         engine: Some(Engine {
@@ -97,7 +90,8 @@ fn card(id: &'static str, text: &'static str) -> Result<PolicyCard, ExpressionFa
             advice: claim("set"),
             text,
         }),
-    })
+        ..VARIABLE
+    }
 }
 
 /// Returns the loop of a person's own lines under an id, such as the name of their file. It lives as long as the
@@ -114,8 +108,8 @@ fn card(id: &'static str, text: &'static str) -> Result<PolicyCard, ExpressionFa
 /// assert!(own_loop("mine", "owed = dt").is_err());
 /// ```
 pub fn own_loop(id: &str, text: &str) -> Result<&'static PolicyCard, ExpressionFault> {
-    LoopText::read(text)?;
-    let card = card(id.to_owned().leak(), text.to_owned().leak())?;
+    let lines = LoopText::read(text)?;
+    let card = card(id.to_owned().leak(), text.to_owned().leak(), lines);
     Ok(Box::leak(Box::new(card)))
 }
 

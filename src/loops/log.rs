@@ -2,11 +2,10 @@
 
 use super::engines::ENGINES;
 use super::pacer::Pacer;
-use super::policies::POLICIES;
+use super::policies::{POLICIES, VARIABLE};
 use super::policy::{Build, PolicyCard};
 use super::time_base::TimeBase;
 use super::trace::FrameTrace;
-use crate::run::race::Interpolation;
 use crate::sim::TickRate;
 use crate::sim::number::significant;
 use crate::table::median;
@@ -71,19 +70,12 @@ impl ShownLog {
             id: LOG,
             name: "The log",
             formula: "the moment that the log shows",
-            constants: "",
             odd_frames: "as the log",
             users: "the game of the log",
             source: "a column of the log",
-            drawing: Interpolation::Raw,
-            has_render_tick: false,
-            has_fixed_tick: false,
-            needs_exact_clock: false,
-            has_max_ticks: false,
-            is_usual: false,
             snippets: &[],
-            engine: None,
             build: Build::Replay(moments_ms),
+            ..VARIABLE
         }));
         Some(Self { card, taken, moments_ms })
     }

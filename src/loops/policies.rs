@@ -25,6 +25,26 @@ macro_rules! snippets {
     };
 }
 
+/// One step of the frame's length. The cards of all other loops derive from this one.
+pub(super) const VARIABLE: PolicyCard = PolicyCard {
+    id: "variable",
+    name: "Variable",
+    formula: "one step of dt",
+    constants: "",
+    odd_frames: "no time: no step; 10 s: one step of 10 s",
+    users: "LÖVE, and many small games",
+    source: "LÖVE's love.run: update(dt)",
+    drawing: Interpolation::Raw,
+    has_render_tick: false,
+    has_fixed_tick: false,
+    needs_exact_clock: false,
+    has_max_ticks: false,
+    is_usual: false,
+    snippets: snippets!("variable": "rust" "rs", "c++" "hpp", "c#" "cs"),
+    build: Build::Rust(|_, _| Box::new(Variable { longest: None })),
+    engine: None,
+};
+
 /// A fixed tick whose last state is shown. Policies that draw a fixed tick differently derive their cards from this
 /// one.
 const FIXED: PolicyCard = PolicyCard {
@@ -35,54 +55,27 @@ const FIXED: PolicyCard = PolicyCard {
     odd_frames: "no time: no tick; 10 s: the ticks of 250 ms, the rest dropped",
     users: "Unity (50 Hz, frame at most 1/3 s), Bevy (64 Hz; cuts a frame to 250 ms before it counts), MonoGame (60 Hz, 500 ms), Godot (60 Hz, 8 ticks), Doom 3 BFG (50 ms)",
     source: "G. Fiedler, \"Fix Your Timestep!\", 2004",
-    drawing: Interpolation::Raw,
-    has_render_tick: false,
     has_fixed_tick: true,
-    needs_exact_clock: false,
     has_max_ticks: true,
-    is_usual: false,
     snippets: snippets!("fixed": "rust" "rs", "c++" "hpp", "c#" "cs"),
     build: Build::Rust(|base, limits| Box::new(Fixed::new(base, limits))),
-    engine: None,
+    ..VARIABLE
 };
 
 /// Every policy of a game loop, with the simplest first.
 pub static POLICIES: &[PolicyCard] = &[
-    PolicyCard {
-        id: "variable",
-        name: "Variable",
-        formula: "one step of dt",
-        constants: "",
-        odd_frames: "no time: no step; 10 s: one step of 10 s",
-        users: "LÖVE, and many small games",
-        source: "LÖVE's love.run: update(dt)",
-        drawing: Interpolation::Raw,
-        has_render_tick: false,
-        has_fixed_tick: false,
-        needs_exact_clock: false,
-        has_max_ticks: false,
-        is_usual: true,
-        snippets: snippets!("variable": "rust" "rs", "c++" "hpp", "c#" "cs"),
-        build: Build::Rust(|_, _| Box::new(Variable { longest: None })),
-        engine: None,
-    },
+    PolicyCard { is_usual: true, ..VARIABLE },
     PolicyCard {
         id: "lockstep",
         name: "Lockstep",
         formula: "one tick a frame, however long it was",
-        constants: "",
         odd_frames: "any: one tick",
         users: "the samples of Box2D and Rapier",
         source: "Box2D's sample application",
-        drawing: Interpolation::Raw,
-        has_render_tick: false,
         has_fixed_tick: true,
-        needs_exact_clock: false,
-        has_max_ticks: false,
-        is_usual: false,
         snippets: snippets!("lockstep": "rust" "rs"),
         build: Build::Rust(|base, _| Box::new(Lockstep { tick: base.tick() })),
-        engine: None,
+        ..VARIABLE
     },
     PolicyCard {
         id: "clamped-variable",
@@ -92,17 +85,11 @@ pub static POLICIES: &[PolicyCard] = &[
         odd_frames: "no time: no step; 10 s: one step of 1/30 s, the rest dropped",
         users: "bevy_rapier (TimestepMode::Variable), Unreal without substeps (1/30 s)",
         source: "Unreal's MaxPhysicsDeltaTime",
-        drawing: Interpolation::Raw,
-        has_render_tick: false,
-        has_fixed_tick: false,
-        needs_exact_clock: false,
-        has_max_ticks: false,
-        is_usual: false,
         snippets: snippets!("clamped-variable": "rust" "rs", "c++" "hpp", "c#" "cs"),
         build: Build::Rust(|base, _| {
             Box::new(Variable { longest: Some(base.nanoseconds(1_000_000_000) / 30) })
         }),
-        engine: None,
+        ..VARIABLE
     },
     PolicyCard {
         id: "semi-fixed",
@@ -112,18 +99,13 @@ pub static POLICIES: &[PolicyCard] = &[
         odd_frames: "no time: no step; 10 s: 6 steps of 10/6 s",
         users: "Unreal with substeps (60 Hz, at most 6), Quake III's player (66 ms)",
         source: "G. Fiedler, \"Fix Your Timestep!\", 2004; Unreal's physics substepping",
-        drawing: Interpolation::Raw,
-        has_render_tick: false,
-        has_fixed_tick: false,
-        needs_exact_clock: false,
         has_max_ticks: true,
-        is_usual: false,
         snippets: snippets!("semi-fixed": "rust" "rs", "c++" "hpp", "c#" "cs"),
         build: Build::Rust(|base, limits| {
             let max_steps = limits.max_ticks.unwrap_or(MAX_STEPS);
             Box::new(SemiFixed { tick: base.tick(), rounding: base.nanoseconds(1), max_steps })
         }),
-        engine: None,
+        ..VARIABLE
     },
     PolicyCard { is_usual: true, needs_exact_clock: true, ..FIXED },
     PolicyCard {
@@ -214,15 +196,9 @@ pub static POLICIES: &[PolicyCard] = &[
         odd_frames: "no time: steps run out within 10 frames; 10 s: a sixteenth of what is missing each frame, in long steps",
         users: "BitSquid, now Autodesk Stingray, in its own form",
         source: "BitSquid's blog, \"Time Step Smoothing\", 2010",
-        drawing: Interpolation::Raw,
-        has_render_tick: false,
-        has_fixed_tick: false,
-        needs_exact_clock: false,
-        has_max_ticks: false,
-        is_usual: false,
         snippets: snippets!("median": "rust" "rs"),
         build: Build::Rust(|base, _| Box::new(Median::new(base))),
-        engine: None,
+        ..VARIABLE
     },
     PolicyCard {
         id: "slow-down",

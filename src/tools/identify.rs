@@ -11,9 +11,9 @@ mod decision;
 mod effective;
 mod fit;
 mod logged;
+mod matching_spring;
 mod motion;
 mod simplest;
-mod start;
 mod swing;
 
 use candidates::candidates;

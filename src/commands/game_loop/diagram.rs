@@ -50,23 +50,32 @@ fn curve(index: usize, row: &Measured, dots: f32, points: Vec<[f64; 2]>) -> Figu
     FigureCurve { name: row.card.id.into(), colour, dash, dots, points }
 }
 
-/// Returns the chart of the displayed moment against the moment of display. The display holds each picture until the
-/// next.
-fn chart_of_moments(rows: &[Measured], before: &str) -> Chart {
-    let along = rows.iter().flat_map(|row| &row.drawn).map(|point| point[0]);
-    let start = along.clone().reduce(f64::min).unwrap_or(0.0);
-    let end = along.fold(start + 1.0, f64::max);
-    let steps = |row: &Measured| -> Vec<[f64; 2]> {
-        let pairs = row.drawn.windows(2);
-        let held = pairs.flat_map(|pair| [pair[0], [pair[1][0], pair[0][1]]]);
-        held.chain(row.drawn.last().copied()).collect()
-    };
-    let ideal = FigureCurve {
+/// Returns the range of the moments of display, at least a millisecond.
+fn span_of<'a>(points: impl Iterator<Item = &'a [f64; 2]>) -> [f64; 2] {
+    let along: Vec<f64> = points.map(|point| point[0]).collect();
+    let start = along.iter().copied().reduce(f64::min).unwrap_or(0.0);
+    [start, along.into_iter().fold(start + 1.0, f64::max)]
+}
+
+/// Returns the diagonal on which every picture shows the moment of its display.
+fn real_time(span: [f64; 2]) -> FigureCurve {
+    FigureCurve {
         name: "the moment of display".into(),
         colour: Theme::Dark.palette().text,
         dash: [1.0, 0.0],
         dots: 0.0,
-        points: vec![[start; 2], [end; 2]],
+        points: span.map(|end| [end; 2]).into(),
+    }
+}
+
+/// Returns the chart of the displayed moment against the moment of display. The display holds each picture until the
+/// next.
+fn chart_of_moments(rows: &[Measured], before: &str) -> Chart {
+    let [start, end] = span_of(rows.iter().flat_map(|row| &row.drawn));
+    let steps = |row: &Measured| -> Vec<[f64; 2]> {
+        let pairs = row.drawn.windows(2);
+        let held = pairs.flat_map(|pair| [pair[0], [pair[1][0], pair[0][1]]]);
+        held.chain(row.drawn.last().copied()).collect()
     };
     let curves = rows.iter().enumerate().map(|(n, row)| curve(n, row, 0.0, steps(row)));
     let near = start - (end - start);
@@ -79,26 +88,16 @@ fn chart_of_moments(rows: &[Measured], before: &str) -> Chart {
             Axis { name: "moment of display (ms)", view: [start, end], scale: AxisScale::Linear },
             Axis { name: "moment shown (ms)", view: [least, end], scale: AxisScale::Linear },
         ],
-        curves: [ideal].into_iter().chain(curves).collect(),
+        curves: [real_time([start, end])].into_iter().chain(curves).collect(),
     }
 }
 
 /// Returns the chart of game time over real time around the longest frame. Slow motion is flatter than the diagonal,
 /// fast-forward is steeper, and a jump is a step.
 fn game_time(rows: &[Measured], before: &str) -> Chart {
-    let along = rows.iter().flat_map(|row| &row.paced).map(|point| point[0]);
-    let start = along.clone().reduce(f64::min).unwrap_or(0.0);
-    let end = along.fold(start + 1.0, f64::max);
+    let span = span_of(rows.iter().flat_map(|row| &row.paced));
     let game = rows.iter().flat_map(|row| &row.paced).map(|point| point[1]);
-    let span = [start, end];
     let view = game.fold(span, |[least, most], ms| [least.min(ms), most.max(ms)]);
-    let ideal = FigureCurve {
-        name: "the moment of display".into(),
-        colour: Theme::Dark.palette().text,
-        dash: [1.0, 0.0],
-        dots: 0.0,
-        points: vec![[start; 2], [end; 2]],
-    };
     let curves = rows.iter().enumerate().map(|(n, row)| curve(n, row, 0.0, row.paced.clone()));
     Chart {
         title: sentence(before, "game time over real time"),
@@ -107,7 +106,7 @@ fn game_time(rows: &[Measured], before: &str) -> Chart {
             Axis { name: "real time (ms)", view: span, scale: AxisScale::Linear },
             Axis { name: "game time (ms)", view, scale: AxisScale::Linear },
         ],
-        curves: [ideal].into_iter().chain(curves).collect(),
+        curves: [real_time(span)].into_iter().chain(curves).collect(),
     }
 }
 

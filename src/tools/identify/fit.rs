@@ -3,8 +3,8 @@
 use super::candidates::Candidate;
 use super::effective::Effective;
 use super::logged::{Log, LoggedBody};
+use super::matching_spring::matching_spring;
 use super::motion::{run, run_by_map};
-use super::start::matching_spring;
 use crate::sim::least_squares;
 
 /// Number of Gauss-Newton iterations if the log has the initial velocity; a linear motion needs one.
