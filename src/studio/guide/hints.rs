@@ -178,11 +178,13 @@ fn is_so(hint: &str, now: &HintContext<'_>) -> bool {
         || now.menu.iter().any(|spec| hint.contains(&spec.method.name.to_lowercase()));
     let opening = now.scene.opening_method.or(lanes.first().map(|spec| spec.method));
     let is_beyond = |asked: &&StageCommand| matches!(asked, Pick(entry) if *entry >= lanes.len());
+    let is_done = |asked: &&StageCommand| matches!(asked, Pick(entry) if *entry == now.active);
     now.has_own_values
         && now.race.tick_hz() == now.scene.tick_hz
         && (!is_of_mode || now.race.mode() == opens_in)
         && (!is_of_method || now.race.mode() == Mode::Race || Some(now.method()) == opening)
         && !asked.iter().any(is_beyond)
+        && (now.race.mode() == Mode::Race || !asked.iter().any(is_done))
 }
 
 /// Describes how a method would have done, in words that follow the method's name, or returns `None` if that is
@@ -261,6 +263,19 @@ mod tests {
         studio.viewer.hints = Hints { scene: true, ..Hints::default() };
         let hint = studio.hint().unwrap();
         assert!(hint.contains("`]`") && !hint.contains("`[`"), "{hint}");
+    }
+
+    #[test]
+    fn a_method_that_is_selected_already_is_not_asked_for() {
+        use crate::studio::Studio;
+        for name in ["spring", "damped", "pendulum", "harbour"] {
+            let mut scene = Scene::built_in(name).unwrap();
+            let asks_for_it =
+                |scene: &Scene| Studio::new(scene.clone()).hint().unwrap().contains("`2`");
+            assert!(asks_for_it(&scene), "{name}");
+            scene.opening_method = Some(scene.lanes[1].method);
+            assert!(!asks_for_it(&scene), "{name}");
+        }
     }
 
     #[test]
