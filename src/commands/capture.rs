@@ -33,8 +33,7 @@ Examples:
   regatta capture --scene spring --race --out clip
   regatta capture --scene ship --frames 1 --size 1920x1080 --out still
   regatta capture --scene stiff --out stiff.png
-  regatta capture --race --format y4m --out - | ffmpeg -i - -vf scale=out_color_matrix=bt709
-    -pix_fmt yuv420p -colorspace bt709 -color_primaries bt709 -color_trc bt709 race.mp4";
+  regatta capture --race --format y4m --out race.y4m";
 
 /// Draw a run into numbered pictures, without a window
 #[derive(Debug, Args)]

@@ -258,6 +258,12 @@ pub fn command_for(key: Key) -> Option<(Command, &'static Binding)> {
     })
 }
 
+/// Returns the commands of the key that has this name for people, such as `Home` or `2`.
+pub fn commands_named(name: &str) -> impl Iterator<Item = &'static Command> {
+    let bound = KEYS.iter().flat_map(|binding| binding.keys);
+    bound.filter(move |(key, _)| key.to_string() == name).map(|(_, command)| command)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -8,7 +8,7 @@ use crate::studio::Step;
 use crate::studio::command::{Command, RunCommand, StageCommand, TICK_LADDER, ViewCommand};
 use crate::studio::display::Arrangement;
 use crate::studio::instrument::Instrument;
-use crate::studio::key::KEYS;
+use crate::studio::key::commands_named;
 
 /// A hint that follows the scene's own hint.
 struct FollowUpHint {
@@ -161,7 +161,7 @@ impl Hints {
 fn is_so(hint: &str, now: &HintContext<'_>) -> bool {
     use StageCommand::{Method, MethodBeside, Pick, ToggleArrangement, ToggleRace};
     let asked: Vec<&StageCommand> = keys(hint)
-        .flat_map(bound_to)
+        .flat_map(commands_named)
         .filter_map(|command| match command {
             Command::Stage(asked) => Some(asked),
             _ => None,
@@ -203,19 +203,13 @@ fn reaction(outcome: Option<Outcome>) -> Option<&'static str> {
 
 /// Returns the commands of the first key that a hint names.
 fn first_key_commands(hint: &str) -> Option<Vec<&'static Command>> {
-    let commands: Vec<_> = bound_to(keys(hint).next()?).collect();
+    let commands: Vec<_> = commands_named(keys(hint).next()?).collect();
     (!commands.is_empty()).then_some(commands)
 }
 
 /// Returns the names of the keys in a text, which stand between backticks.
 fn keys(text: &str) -> impl Iterator<Item = &str> {
     text.split('`').skip(1).step_by(2)
-}
-
-/// Returns the commands of the key that has this name for people.
-fn bound_to(name: &str) -> impl Iterator<Item = &'static Command> {
-    let bound = KEYS.iter().flat_map(|binding| binding.keys);
-    bound.filter(move |(key, _)| key.to_string() == name).map(|(_, command)| command)
 }
 
 #[cfg(test)]
