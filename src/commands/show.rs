@@ -43,7 +43,7 @@ pub(super) struct ShowArgs {
     /// The language: rust, c, cpp, csharp, gdscript, javascript, lua or step
     ///
     /// Methods have all of them, with the same code in cpp and c. Loops have rust, and some cpp and csharp. `step` is
-    /// the language of a method of your own, to change and give back.
+    /// the language of a method or a loop of your own, to change and give back.
     #[arg(long = "as", value_name = "LANGUAGE", default_value = Language::Rust.id())]
     #[arg(value_parser = CODE_LANGUAGE, hide_possible_values = true)]
     language: CodeLanguage,
@@ -153,23 +153,24 @@ pub(super) fn run(args: &ShowArgs) -> Result<(), Error> {
     print(&code)
 }
 
-/// Returns the source code of a loop in a language.
+/// Returns the source code of a loop in a language. That of an engine is its lines.
 fn snippet(card: &PolicyCard, language: CodeLanguage) -> Result<&'static str, Error> {
-    if let (Some(engine), CodeLanguage::Step | CodeLanguage::Of(Language::Rust)) =
-        (card.engine, language)
-    {
-        return Ok(engine.text);
-    }
-    let found = |written: CodeLanguage| {
+    let found = |language: CodeLanguage| {
         let mut snippets = card.snippets.iter();
-        snippets.find(|snippet| snippet.language == written.of_loops())
+        match language {
+            CodeLanguage::Step => card.lines(),
+            _ => snippets.find(|it| it.language == language.of_loops()).map(|it| it.source),
+        }
     };
-    found(language).map(|snippet| snippet.source).ok_or_else(|| {
+    let language = match language {
+        CodeLanguage::Of(Language::Rust) if card.is_lines() => CodeLanguage::Step,
+        language => language,
+    };
+    found(language).ok_or_else(|| {
         let known =
             (CODE_LANGUAGE.all)().into_iter().filter(|(_, written)| found(*written).is_some());
         let known: Vec<String> = known.map(|(id, _)| id).collect();
         let asked = language.of_loops();
-        let known = if card.is_lines() { vec!["step".into()] } else { known };
         Error::mistake(format!(
             "{} is not written out in {asked}; give --as {}",
             card.id,
