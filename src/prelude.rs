@@ -14,7 +14,8 @@ pub use crate::scene::{LaneSpec, Options, OptionsError, SCENES, Scene};
 #[cfg(feature = "lab")]
 pub use crate::sim::bodies::{BODIES, Extras};
 pub use crate::sim::integrators::{
-    Family, Integrator, METHODS, Method, StepFailure, custom_integrator, integrator, method,
+    Family, Integrator, METHODS, Method, StepFailure, UnknownMethod, custom_integrator, integrator,
+    method, method_or_nearest,
 };
 pub use crate::sim::{
     Body, Clock, Due, Elementwise, Input, ParameterOf, Range, Solver, State, Stepper, System,
@@ -22,3 +23,9 @@ pub use crate::sim::{
 };
 #[cfg(feature = "window")]
 pub use crate::window::Window;
+
+/// What a loop needs, beside the prelude of an engine that has a `System` and a `State` of its own, such as Bevy's.
+pub mod beside {
+    pub use crate::sim::integrators::{Integrator, StepFailure, integrator, method};
+    pub use crate::sim::{Clock, Due, State as MotionState, System as MotionSystem};
+}

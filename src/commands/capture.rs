@@ -33,7 +33,7 @@ Examples:
   regatta capture --scene spring --race --out clip
   regatta capture --scene ship --frames 1 --size 1920x1080 --out still
   regatta capture --scene stiff --out stiff.png
-  regatta capture --race --format y4m --out - | ffmpeg -i - race.mp4";
+  regatta capture --race --format y4m --out race.y4m";
 
 /// Draw a run into numbered pictures, without a window
 #[derive(Debug, Args)]
@@ -76,7 +76,7 @@ pub(super) struct CaptureArgs {
     ///
     /// From 1 to 1000; in a sheet by default 1.
     #[arg(long, value_name = "F")]
-    #[arg(value_parser = clap::value_parser!(u32).range(1..=i64::from(MAX_FPS)))]
+    #[arg(value_parser = fps)]
     fps: Option<u32>,
 
     /// Width and height in pixels [default: 1280x720]
@@ -247,6 +247,18 @@ fn size(written: &str) -> Result<[u32; 2], String> {
         Some(sides) if sides.iter().all(|side| (1..=MAX_SIDE_PX).contains(side)) => Ok(sides),
         Some(_) => Err(format!("each side has 1 to {MAX_SIDE_PX} pixels")),
         None => Err("give width and height in pixels, such as 1280x720".into()),
+    }
+}
+
+fn fps(written: &str) -> Result<u32, String> {
+    match (written.parse(), written.parse::<f64>()) {
+        (Ok(fps), _) if (1..=MAX_FPS).contains(&fps) => Ok(fps),
+        (Err(_), Ok(fps)) if (1.0..=f64::from(MAX_FPS)).contains(&fps) => Err(format!(
+            "frame i stands at i / fps seconds, and fps is a whole number; give {}",
+            fps.round()
+        )),
+        (Ok(fps), _) => Err(format!("{fps} is not in 1..={MAX_FPS}")),
+        _ => Err(format!("give a whole number from 1 to {MAX_FPS}")),
     }
 }
 

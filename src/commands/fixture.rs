@@ -237,6 +237,7 @@ fn test_source(
         .template
         .replace("@ABOUT@", &about.join("\n"))
         .replace("@HZ@", &json!(scene.tick_hz).to_string())
+        .replace("@HZ_REAL@", &format!("{:?}", scene.tick_hz.hz()))
         .replace("@LEAST@", &format!("{least:e}"))
         .replace("@REAL@", real)
         .replace("@STATES@", &table)

@@ -29,8 +29,9 @@ pub(crate) use request::MAX_CLOUDS;
 pub use request::{CloudChoice, CloudPicture, CloudRequest, FoundCloud, LaneCloud, POINTS};
 pub use running::CloudWorker;
 
-use crate::run::race::{ESCAPE, Fnv};
+use crate::run::race::ESCAPE;
 use crate::scene::LaneSpec;
+use crate::sim::Fnv;
 
 /// Default number of points of a cloud.
 pub const USUAL_POINTS: usize = 100_000;

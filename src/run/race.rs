@@ -8,6 +8,7 @@ use std::sync::Arc;
 
 use crate::scene::custom::{self, Options};
 use crate::scene::{LaneId, LaneSpec, Piece, Scene, Scripted};
+use crate::sim::Fnv;
 use crate::sim::{Solver, State, Stepper, System, TickRate, Vector};
 
 pub use crate::scene::TimeScale;
@@ -334,7 +335,7 @@ impl Race {
     pub fn state_hash(&self) -> u64 {
         let mut hash = Fnv::new();
         hash.word(self.tick);
-        self.entrants.iter().for_each(|entrant| hash.lane(&entrant.lane));
+        self.entrants.iter().for_each(|entrant| hash_lane(&mut hash, &entrant.lane));
         hash.0
     }
 
@@ -343,7 +344,7 @@ impl Race {
         self.entrants.iter().map(|entrant| {
             let mut hash = Fnv::new();
             hash.word(self.tick);
-            hash.lane(&entrant.lane);
+            hash_lane(&mut hash, &entrant.lane);
             hash.0
         })
     }
@@ -358,42 +359,22 @@ impl Race {
     }
 }
 
-/// The state of a 64-bit FNV-1a hash.
-pub(crate) struct Fnv(pub(crate) u64);
-
-impl Fnv {
-    pub(crate) fn new() -> Self {
-        Self(0xcbf2_9ce4_8422_2325)
+/// Adds the substeps, the halts and the states of a lane to `hash`.
+fn hash_lane(hash: &mut Fnv, lane: &Lane) {
+    hash.word(u64::from(lane.substeps()));
+    if lane.halted().is_none() {
+        hash.word(u64::MAX);
     }
-
-    pub(super) fn lane(&mut self, lane: &Lane) {
-        self.word(u64::from(lane.substeps()));
-        if lane.halted().is_none() {
-            self.word(u64::MAX);
-        }
-        for halt in lane.halts() {
-            self.word(halt.tick);
-            // A single body needs no index.
-            if lane.bodies().len() > 1 {
-                self.word(halt.body as u64);
-            }
-        }
-        for body in lane.bodies() {
-            let stepper: &dyn Stepper = &*body.stepper;
-            for &value in stepper.q().iter().chain(stepper.v()) {
-                self.number(value);
-            }
+    for halt in lane.halts() {
+        hash.word(halt.tick);
+        // A single body needs no index.
+        if lane.bodies().len() > 1 {
+            hash.word(halt.body as u64);
         }
     }
-
-    pub(crate) fn number(&mut self, value: f64) {
-        self.word(if value == 0.0 { 0 } else { value.to_bits() });
-    }
-
-    pub(super) fn word(&mut self, word: u64) {
-        for byte in word.to_le_bytes() {
-            self.0 = (self.0 ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3);
-        }
+    for body in lane.bodies() {
+        let stepper: &dyn Stepper = &*body.stepper;
+        stepper.q().iter().chain(stepper.v()).for_each(|&value| hash.number(value));
     }
 }
 

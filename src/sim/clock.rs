@@ -5,6 +5,7 @@
 //! rounded. However a day is cut into frames, it has 5 184 000 ticks at 60 Hz, and 5 178 816 ticks at 59.94 Hz.
 
 use std::fmt;
+use std::time::Duration;
 
 use super::tick_rate::TickRate;
 
@@ -15,11 +16,49 @@ const BELOW_ONE: f64 = 1.0 - f64::EPSILON / 2.0;
 
 /// Converts real time into ticks.
 #[derive(Clone, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Deserialize, serde::Serialize))]
+#[cfg_attr(feature = "serde", serde(try_from = "SavedClock", into = "SavedClock"))]
 pub struct Clock {
     tick_hz: TickRate,
     speed_percent: u32,
+    max_frame_ms: u32,
     /// The owed time, less than one tick.
     accumulator: Accumulator,
+}
+
+/// A clock as serde writes it. The owed time has a high and a low half, because few formats have numbers of 128 bits.
+#[cfg(feature = "serde")]
+#[derive(serde::Deserialize, serde::Serialize)]
+struct SavedClock {
+    tick_hz: String,
+    speed_percent: u32,
+    max_frame_ms: u32,
+    owed: [u64; 2],
+}
+
+#[cfg(feature = "serde")]
+impl From<Clock> for SavedClock {
+    fn from(clock: Clock) -> Self {
+        let Clock { tick_hz, speed_percent, max_frame_ms, accumulator } = clock;
+        let owed = accumulator.owed();
+        let owed = [(owed >> 64) as u64, owed as u64];
+        Self { tick_hz: tick_hz.to_string(), speed_percent, max_frame_ms, owed }
+    }
+}
+
+#[cfg(feature = "serde")]
+impl TryFrom<SavedClock> for Clock {
+    type Error = String;
+
+    fn try_from(saved: SavedClock) -> Result<Self, String> {
+        let SavedClock { tick_hz, speed_percent, max_frame_ms, owed: [high, low] } = saved;
+        let mut clock = Self::new(tick_hz.parse::<TickRate>()?);
+        clock.set_speed_percent(speed_percent);
+        clock.set_max_frame_ms(max_frame_ms);
+        clock.accumulator.owed = i128::from(high) << 64 | i128::from(low);
+        let is_below_a_tick = (0..clock.tick()).contains(&clock.accumulator.owed);
+        is_below_a_tick.then_some(clock).ok_or_else(|| "a clock owes less than a tick".to_owned())
+    }
 }
 
 /// The error about a tick rate in Hz outside [`Clock::TICK_HZ`].
@@ -70,7 +109,8 @@ impl Clock {
         if !tick_hz.is_in_range() {
             return Err(TickRateError(tick_hz));
         }
-        Ok(Self { tick_hz, speed_percent: 100, accumulator: Accumulator::default() })
+        let (max_frame_ms, accumulator) = (MAX_FRAME_MS, Accumulator::default());
+        Ok(Self { tick_hz, speed_percent: 100, max_frame_ms, accumulator })
     }
 
     /// Returns the tick rate.
@@ -109,15 +149,26 @@ impl Clock {
         self.accumulator.scale(self.tick_hz.ratio()[1].into(), before);
     }
 
-    /// Changes the speed, clamped to [`Clock::SPEED_PERCENT`].
+    /// Changes the speed, clamped to [`Clock::SPEED_PERCENT`]. The speed is never 0: a game that pauses does not call
+    /// [`Clock::advance`].
     pub fn set_speed_percent(&mut self, percent: u32) {
         self.speed_percent =
             percent.clamp(*Self::SPEED_PERCENT.start(), *Self::SPEED_PERCENT.end());
     }
 
-    /// Returns the maximum number of ticks per frame, which is the ticks in 250 ms, and at least one.
+    /// Changes the longest real time in milliseconds with which one frame catches up. It is [`MAX_FRAME_MS`] at first.
+    pub fn set_max_frame_ms(&mut self, milliseconds: u32) {
+        self.max_frame_ms = milliseconds;
+    }
+
+    /// Returns the maximum number of ticks per frame, which is the ticks in the longest frame, and at least one.
     pub fn max_ticks(&self) -> u32 {
-        max_ticks(self.tick_hz, self.speed_percent, MAX_FRAME_MS)
+        max_ticks(self.tick_hz, self.speed_percent, self.max_frame_ms)
+    }
+
+    /// Adds a frame and returns the ticks due. A frame longer than 292 years counts as one of these.
+    pub fn advance_by(&mut self, frame: Duration) -> Due {
+        self.advance(i64::try_from(frame.as_nanos()).unwrap_or(i64::MAX))
     }
 
     /// Adds a frame of `frame_ns` nanoseconds and returns the ticks due. A negative duration counts as 0.
@@ -243,6 +294,17 @@ mod tests {
             assert_eq!(total, (5_184_000, 0), "at {fps} frames a second");
             assert_eq!(clock.alpha(), 0.0);
         }
+    }
+
+    #[test]
+    fn the_longest_frame_and_its_unit_are_the_games_choice() {
+        let mut clock = Clock::new(60);
+        assert_eq!(clock.advance(1_000_000_000), Due { ticks: 15, dropped: 45 });
+        clock.set_max_frame_ms(500);
+        assert_eq!(clock.advance_by(Duration::from_secs(1)), Due { ticks: 30, dropped: 30 });
+        clock.set_max_frame_ms(0);
+        assert_eq!(clock.advance_by(Duration::from_millis(100)), Due { ticks: 1, dropped: 5 });
+        assert!(clock.advance_by(Duration::MAX).dropped > 1 << 38);
     }
 
     #[test]

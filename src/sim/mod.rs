@@ -18,6 +18,7 @@ mod curve;
 mod double_double;
 mod exact_flow;
 mod exact_since_start;
+mod fnv;
 pub mod integrators;
 #[cfg(feature = "lab")]
 pub mod law;
@@ -44,6 +45,8 @@ pub use body::{Body, Distances, Input, MAX_SWITCHES, NO_BOUNDARIES, Piece};
 pub use body_stepper::stepper;
 #[cfg(feature = "lab")]
 pub use clock::{Accumulator, Clock, Due, MAX_FRAME_MS, TickRateError};
+#[cfg(feature = "lab")]
+pub(crate) use fnv::Fnv;
 #[cfg(feature = "lab")]
 pub(crate) use numerics::golden_section;
 #[cfg(feature = "lab")]

@@ -1,5 +1,7 @@
 //! Coordinate vectors, and the state of a body.
 
+use super::fnv::Fnv;
+
 /// Numbers that are added and scaled one by one, which is all that the formula of a method with fixed steps needs.
 ///
 /// The numbers may be the [components](Vector) of one body, or one coordinate of each of several bodies stepped
@@ -22,7 +24,8 @@
 /// ```
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is no vector of coordinates",
-    note = "a vector is f64, DVec2, DVec3, DVec4, [f64; N] or Vec<f64>: two bodies in the plane are one [f64; 4]"
+    note = "a vector is f64, [f64; N], Vec<f64>, or DVec2, DVec3, DVec4 of `regatta::glam`, not of another glam: two bodies in the plane are one [f64; 4]",
+    note = "f32 is not stepped: keep the state in f64, and convert what is drawn"
 )]
 pub trait Elementwise: Clone + Send + Sync + 'static {
     /// Copies `from`, which must have the same length. Never allocates.
@@ -68,7 +71,8 @@ pub trait Elementwise: Clone + Send + Sync + 'static {
 /// loops for `Vec`.
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is no vector of one body's coordinates",
-    note = "a vector is f64, DVec2, DVec3, DVec4, [f64; N] or Vec<f64>: two bodies in the plane are one [f64; 4]"
+    note = "a vector is f64, [f64; N], Vec<f64>, or DVec2, DVec3, DVec4 of `regatta::glam`, not of another glam: two bodies in the plane are one [f64; 4]",
+    note = "f32 is not stepped: keep the state in f64, and convert what is drawn"
 )]
 pub trait Vector: Elementwise {
     /// Whether the coordinates fit into registers, so that each method is compiled for each body of this type. For any
@@ -277,6 +281,35 @@ pub struct State<V> {
     pub q: V,
     /// Velocities, per second.
     pub v: V,
+}
+
+impl<V: Vector> State<V> {
+    /// Whether all numbers are finite. A body that blew up has others.
+    pub fn is_finite(&self) -> bool {
+        self.numbers().all(|number| number.is_finite())
+    }
+
+    /// Returns the state at `part`, from 0 to 1, of the straight way to `next`: what is drawn between two ticks. Angles
+    /// are not turned the shorter way.
+    pub fn lerp(&self, next: &Self, part: f64) -> Self {
+        let mut between = self.clone();
+        between.q.scale(1.0 - part);
+        between.v.scale(1.0 - part);
+        between.add_scaled(part, next);
+        between
+    }
+
+    /// Returns a hash of the bits, with -0 as 0: 64-bit FNV-1a over little-endian words, coordinates first. It is the
+    /// same on every platform and in every release.
+    pub fn bits_hash(&self) -> u64 {
+        let mut hash = Fnv::new();
+        self.numbers().for_each(|number| hash.number(number));
+        hash.0
+    }
+
+    fn numbers(&self) -> impl Iterator<Item = f64> {
+        self.q.components().iter().chain(self.v.components()).copied()
+    }
 }
 
 /// Pairs coordinates and velocities.

@@ -25,7 +25,7 @@ pub trait System {
     }
 
     /// Answers an optional query at time `t` (s). Returns `false` if the system has no answer. A system that wraps
-    /// another must forward this function, the coupling and the acceleration, and nothing else.
+    /// another must forward this function, the coupling, the generation and the acceleration, and nothing else.
     #[inline]
     fn query(&self, _t: f64, _question: Query<'_, Self::Vector>) -> bool {
         false
@@ -35,6 +35,15 @@ pub trait System {
     #[inline]
     fn coupling(&self) -> Coupling {
         Coupling::All
+    }
+
+    /// Returns a number that changes whenever the forces jump: at a new input, wind, stiffness. An integrator from
+    /// [`integrator()`](super::integrators::integrator()) that sees another number [resets](super::integrators::Integrator::reset)
+    /// itself, so that no method goes on with a memory of the old forces. A system that wraps another must forward this
+    /// function.
+    #[inline]
+    fn generation(&self) -> u64 {
+        0
     }
 }
 
@@ -108,6 +117,10 @@ impl<S: System + ?Sized, P: Deref<Target = S>> System for P {
 
     fn coupling(&self) -> Coupling {
         (**self).coupling()
+    }
+
+    fn generation(&self) -> u64 {
+        (**self).generation()
     }
 }
 
@@ -230,6 +243,11 @@ impl<S: System> System for Counted<S> {
     #[inline]
     fn coupling(&self) -> Coupling {
         self.system.coupling()
+    }
+
+    #[inline]
+    fn generation(&self) -> u64 {
+        self.system.generation()
     }
 
     #[inline]

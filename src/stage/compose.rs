@@ -206,8 +206,9 @@ impl BodyCell<'_> {
         if has_outgrown {
             universe::landmarks(picture, (camera, self.room()), moment, (index, self.front));
         }
+        let mut ends = Vec::new();
         if self.shows_futures() && self.lanes.iter().any(|lane| lane.id == studio.selected().id) {
-            futures::draw(picture, moment, (camera, self.room()), framing, index);
+            ends = futures::draw(picture, moment, (camera, self.room()), framing, index);
             if without_futures(&studio.deck, index).is_none() {
                 captions::futures(picture, camera.rect, studio, palette);
             }
@@ -317,6 +318,7 @@ impl BodyCell<'_> {
         if let Some(front) = numbered {
             clear_number(&mut flagged, front, lift);
         }
+        futures::label_ends(picture, moment, ends, self.room());
         flags(picture, &flagged, lift, palette, (room, camera.rect, name));
         if Look::of(truth).has_ground() && truth.halted().is_none() {
             apex::draw(picture, camera, moment, self.front, index);

@@ -6,6 +6,7 @@ use super::moment::DrawContext;
 use super::sketch::Camera;
 use super::{Align, Picture, Rect, captions, flags};
 use crate::look::Framing;
+use crate::look::palette::fade;
 use crate::measure::{FutureCurve, FutureMoment};
 use crate::studio::futures;
 
@@ -27,20 +28,22 @@ const MARGIN: f32 = 26.0;
 const BELOW: f32 = 14.0;
 const HALF_LINE: f32 = 7.0;
 const CLEAR: f32 = 2.0;
+/// Opacity of the plate behind a tag.
+const PLATE: f32 = 0.8;
 /// Least shift (points) of a tag beside the end of its thread for a leader.
 const SHIFTED: f32 = 5.0;
 
 /// The end of a thread in points, and the index of its method; `None` for the truth.
-type End = ([f32; 2], Option<usize>);
+pub(super) type End = ([f32; 2], Option<usize>);
 
-/// Draws the futures of a body within `clip`.
+/// Draws the futures of a body within `clip`, and returns their ends.
 pub(super) fn draw(
     picture: &mut Picture,
     moment: &DrawContext<'_>,
     (camera, clip): (&Camera, Rect),
     framing: Framing,
     body: usize,
-) {
+) -> Vec<End> {
     let palette = moment.palette;
     let mut ends: Vec<End> = Vec::new();
     let mut futures = futures(&moment.studio.deck, body);
@@ -80,12 +83,17 @@ pub(super) fn draw(
             }
         }
     }
-    label_ends(picture, moment, ends, clip);
+    ends
 }
 
 /// Writes the numbers of the methods below the ends of their threads, from left to right in the order of the ends.
 /// Ends closer than a digit share one tag with one leader.
-fn label_ends(picture: &mut Picture, moment: &DrawContext<'_>, mut ends: Vec<End>, clip: Rect) {
+pub(super) fn label_ends(
+    picture: &mut Picture,
+    moment: &DrawContext<'_>,
+    mut ends: Vec<End>,
+    clip: Rect,
+) {
     ends.sort_by(|(a, _), (b, _)| a[0].total_cmp(&b[0]));
     let mut tags: Vec<Vec<End>> = Vec::new();
     for end in ends {
@@ -113,6 +121,10 @@ fn label_ends(picture: &mut Picture, moment: &DrawContext<'_>, mut ends: Vec<End
     flags::space_out(&mut places, &widths, [clip.min[0], clip.max[0]]);
     for (((tag, end), [x, y]), width) in tags.iter().zip(middles).zip(places).zip(widths) {
         let mut left = x - width / 2.0;
+        // On a body of their own colour the digits would hardly be seen.
+        let [top, bottom] = [y - HALF_LINE - CLEAR, y + HALF_LINE + CLEAR];
+        let plate = [[left, top], [left + width, top], [left + width, bottom], [left, bottom]];
+        picture.pen(clip).fill(&plate, fade(moment.palette.sea[1], PLATE));
         for &(_, entry) in tag {
             let (words, colour) = match entry {
                 Some(entry) => (format!("{}", entry + 1), moment.style(entry).0),

@@ -49,11 +49,12 @@ pub fn cloud_refusal(deck: &Deck, viewer: &Viewer) -> Option<NoCloud> {
     (coordinates > 1).then(|| NoCloud::SeveralCoordinates { body: name(), coordinates })
 }
 
-/// Returns the latest [accepted](accept_cloud) clouds, at a tick near the present one. Returns `None` while there are
-/// none, or if they are not shown.
+/// Returns the latest [accepted](accept_cloud) clouds, at a tick near the present one. After a change to the run they
+/// are those of the run before, until the first new ones are accepted. Returns `None` while there are none, or if they
+/// are not shown.
 pub fn shown_cloud(studio: &Studio) -> Option<&FoundCloud> {
     let wanted = cloud_request(studio)?;
-    studio.viewer.cloud.as_ref().filter(|found| found.request.is_of_one_run(&wanted))
+    studio.viewer.cloud.as_ref().filter(|found| found.request.is_of_one_picture(&wanted))
 }
 
 /// Time for which the clouds of an opened scene stay at their start, and maximum time to wait for them, in nanoseconds.
@@ -89,7 +90,9 @@ pub fn accept_cloud(studio: &mut Studio, found: FoundCloud) {
     else {
         return;
     };
-    let ticks = shown_cloud(studio).and_then(|shown| {
+    let shown = studio.viewer.cloud.as_ref();
+    let of_this_run = shown.filter(|shown| shown.request.is_of_one_run(&found.request));
+    let ticks = of_this_run.and_then(|shown| {
         let [shown, found] = [shown, &found].map(|it| it.picture.as_ref().ok().map(|it| it.tick));
         Some((shown?, found?))
     });
@@ -120,8 +123,9 @@ pub fn complete_clouds(studio: &mut Studio, worker: &mut CloudWorker, stop: impl
 mod tests {
     use super::*;
     use crate::measure::cloud::CloudChoice;
+    use crate::scene::Action;
     use crate::scene::Scene;
-    use crate::studio::{RunCommand, StageCommand, Studio, show_clouds_of_scene};
+    use crate::studio::{Command, RunCommand, StageCommand, Step, Studio, show_clouds_of_scene};
 
     #[test]
     fn a_lone_cloud_never_leaves_its_picture() {
@@ -188,6 +192,28 @@ mod tests {
             last = shown(&studio).0;
         }
         assert_eq!(last, 60);
+    }
+
+    #[test]
+    fn clouds_of_a_run_stay_until_those_after_a_change_are_there() {
+        let mut studio = Studio::new(Scene::built_in("liouville").unwrap());
+        show_clouds_of_scene(&mut studio.deck, &mut studio.viewer);
+        let mut worker = CloudWorker::default();
+        let moment = |studio: &Studio| {
+            let FoundCloud { request, picture } = shown_cloud(studio).expect("clouds");
+            request.t_s(picture.as_ref().unwrap())
+        };
+        let kick = RunCommand::Act(Action::Kick(1.0));
+        for change in [Command::from(StageCommand::TickRate(Step::Previous)), kick.into()] {
+            (0..40).for_each(|_| studio.tick());
+            complete_clouds(&mut studio, &mut worker, || false);
+            let before = moment(&studio);
+            studio.apply(change);
+            (0..5).for_each(|_| studio.tick());
+            assert_eq!(moment(&studio), before);
+            complete_clouds(&mut studio, &mut worker, || false);
+            assert!(moment(&studio) > before, "{before}: {}", moment(&studio));
+        }
     }
 
     #[test]

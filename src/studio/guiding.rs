@@ -9,6 +9,7 @@ use super::restarting::{Jump, follow};
 use super::resting::rest_hint;
 use super::step::Step;
 use super::viewer::Viewer;
+use crate::measure::Outcome;
 use crate::run::Metric;
 use crate::run::past::Quantity;
 use crate::run::race::Interpolation;
@@ -188,7 +189,9 @@ pub(super) fn hint(deck: &Deck, viewer: &Viewer, is_in_loop_lab: bool) -> Option
     }
     let from_start = viewer.verdict(deck.active()).filter(|verdict| verdict.starts_at_s == 0.0);
     let outcome = from_start.map(|verdict| verdict.outcome());
-    viewer.hints.text(&hint_context(deck, viewer, is_in_loop_lab), outcome)
+    let mut now = hint_context(deck, viewer, is_in_loop_lab);
+    now.is_lost |= matches!(outcome, Some(Outcome::BlewUp | Outcome::GaveUp));
+    viewer.hints.text(&now, outcome)
 }
 
 #[cfg(test)]

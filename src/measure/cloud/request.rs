@@ -80,11 +80,16 @@ impl CloudRequest {
 
     /// Whether both requests are for the same run of clouds, at any tick and with any number of points.
     pub fn is_of_one_run(&self, other: &Self) -> bool {
-        Arc::ptr_eq(&self.scene, &other.scene)
+        self.is_of_one_picture(other)
             && self.changes == other.changes
+            && self.tick_hz == other.tick_hz
+    }
+
+    /// Whether both requests are for clouds of the same body under the same methods, in any run of the scene.
+    pub fn is_of_one_picture(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.scene, &other.scene)
             && self.body == other.body
             && self.lanes == other.lanes
-            && self.tick_hz == other.tick_hz
             && self.choice.kind == other.choice.kind
     }
 
@@ -98,14 +103,19 @@ impl CloudRequest {
         self.in_time
     }
 
-    /// Returns the time of a picture in the run, in seconds.
-    pub fn t_s(&self, picture: &CloudPicture) -> f64 {
-        self.changes.starts_at_s() + self.tick_hz.seconds(picture.tick)
+    /// Returns the time of `tick`, counted from the start of the clouds, in seconds of the run.
+    fn time_s(&self, tick: u64) -> f64 {
+        self.changes.starts_at_s() + self.tick_hz.seconds(tick)
     }
 
-    /// Returns the time between the request and a picture, in seconds of the run.
-    pub fn behind_s(&self, picture: &CloudPicture) -> f64 {
-        self.tick_hz.seconds(self.tick.abs_diff(picture.tick))
+    /// Returns the time of a picture in the run, in seconds.
+    pub fn t_s(&self, picture: &CloudPicture) -> f64 {
+        self.time_s(picture.tick)
+    }
+
+    /// Returns the time between a picture of this request and `now`, in seconds of the run.
+    pub fn behind_s(&self, picture: &CloudPicture, now: &Self) -> f64 {
+        (now.time_s(now.tick) - self.t_s(picture)).abs()
     }
 }
 

@@ -1,26 +1,29 @@
-//! A wrapper that detects when the caller changes the state of a method.
+//! A wrapper that detects when the caller changes the state of a method, or the forces.
 
 use super::failure::{StepFailure, Stepped};
 use super::integrator::{Integrator, Override};
 use crate::sim::state::{State, Vector};
 use crate::sim::system::{Coupling, StateOf, System};
 
-/// A method that [resets](Integrator::reset) if its state is not the one that it returned.
+/// A method that [resets](Integrator::reset) if its state is not the one that it returned, or if the forces have jumped.
 #[derive(Clone)]
 pub(super) struct ResetOnChange<I, V> {
     method: I,
     returned: State<V>,
+    /// The [generation](System::generation) of the forces of the last step.
+    generation: u64,
 }
 
 impl<I, V: Vector> ResetOnChange<I, V> {
     /// Wraps this method, for coordinates shaped `like` these.
     pub(super) fn around(method: I, like: &V) -> Self {
-        Self { method, returned: State { q: like.clone(), v: like.clone() } }
+        Self { method, returned: State { q: like.clone(), v: like.clone() }, generation: 0 }
     }
 
     #[inline]
     fn advance<S: System<Vector = V>>(
         &mut self,
+        system: &S,
         state: &mut State<V>,
         advance: impl FnOnce(&mut I, &mut State<V>) -> Stepped,
     ) -> Stepped
@@ -28,9 +31,12 @@ impl<I, V: Vector> ResetOnChange<I, V> {
         I: Integrator<S>,
     {
         let same = |a: &V, b: &V| a.components() == b.components();
-        if !(same(&state.q, &self.returned.q) && same(&state.v, &self.returned.v)) {
+        let is_own = same(&state.q, &self.returned.q) && same(&state.v, &self.returned.v);
+        let generation = system.generation();
+        if !is_own || generation != self.generation {
             self.method.reset();
         }
+        self.generation = generation;
         let done = advance(&mut self.method, state);
         self.returned.assign(state);
         done
@@ -52,12 +58,12 @@ where
 
     fn step(&mut self, system: &S, t: f64, h: f64, state: &mut StateOf<S>) -> Stepped {
         StepFailure::check_step(t, h, 1)?;
-        self.advance::<S>(state, |method, state| method.step(system, t, h, state))
+        self.advance(system, state, |method, state| method.step(system, t, h, state))
     }
 
     fn steps(&mut self, system: &S, t: f64, h: f64, n: u32, state: &mut StateOf<S>) -> Stepped {
         StepFailure::check_step(t, h, n)?;
-        self.advance::<S>(state, |method, state| method.steps(system, t, h, n, state))
+        self.advance(system, state, |method, state| method.steps(system, t, h, n, state))
     }
 
     fn reset(&mut self) {

@@ -8,7 +8,7 @@ use crate::studio::Step;
 use crate::studio::command::{Command, RunCommand, StageCommand, TICK_LADDER, ViewCommand};
 use crate::studio::display::Arrangement;
 use crate::studio::instrument::Instrument;
-use crate::studio::key::KEYS;
+use crate::studio::key::commands_named;
 
 /// A hint that follows the scene's own hint.
 struct FollowUpHint {
@@ -161,7 +161,7 @@ impl Hints {
 fn is_so(hint: &str, now: &HintContext<'_>) -> bool {
     use StageCommand::{Method, MethodBeside, Pick, ToggleArrangement, ToggleRace};
     let asked: Vec<&StageCommand> = keys(hint)
-        .flat_map(bound_to)
+        .flat_map(commands_named)
         .filter_map(|command| match command {
             Command::Stage(asked) => Some(asked),
             _ => None,
@@ -178,11 +178,13 @@ fn is_so(hint: &str, now: &HintContext<'_>) -> bool {
         || now.menu.iter().any(|spec| hint.contains(&spec.method.name.to_lowercase()));
     let opening = now.scene.opening_method.or(lanes.first().map(|spec| spec.method));
     let is_beyond = |asked: &&StageCommand| matches!(asked, Pick(entry) if *entry >= lanes.len());
+    let is_done = |asked: &&StageCommand| matches!(asked, Pick(entry) if *entry == now.active);
     now.has_own_values
         && now.race.tick_hz() == now.scene.tick_hz
         && (!is_of_mode || now.race.mode() == opens_in)
         && (!is_of_method || now.race.mode() == Mode::Race || Some(now.method()) == opening)
         && !asked.iter().any(is_beyond)
+        && (now.race.mode() == Mode::Race || !asked.iter().any(is_done))
 }
 
 /// Describes how a method would have done, in words that follow the method's name, or returns `None` if that is
@@ -201,19 +203,13 @@ fn reaction(outcome: Option<Outcome>) -> Option<&'static str> {
 
 /// Returns the commands of the first key that a hint names.
 fn first_key_commands(hint: &str) -> Option<Vec<&'static Command>> {
-    let commands: Vec<_> = bound_to(keys(hint).next()?).collect();
+    let commands: Vec<_> = commands_named(keys(hint).next()?).collect();
     (!commands.is_empty()).then_some(commands)
 }
 
 /// Returns the names of the keys in a text, which stand between backticks.
 fn keys(text: &str) -> impl Iterator<Item = &str> {
     text.split('`').skip(1).step_by(2)
-}
-
-/// Returns the commands of the key that has this name for people.
-fn bound_to(name: &str) -> impl Iterator<Item = &'static Command> {
-    let bound = KEYS.iter().flat_map(|binding| binding.keys);
-    bound.filter(move |(key, _)| key.to_string() == name).map(|(_, command)| command)
 }
 
 #[cfg(test)]
@@ -261,6 +257,19 @@ mod tests {
         studio.viewer.hints = Hints { scene: true, ..Hints::default() };
         let hint = studio.hint().unwrap();
         assert!(hint.contains("`]`") && !hint.contains("`[`"), "{hint}");
+    }
+
+    #[test]
+    fn a_method_that_is_selected_already_is_not_asked_for() {
+        use crate::studio::Studio;
+        for name in ["spring", "damped", "pendulum", "harbour"] {
+            let mut scene = Scene::built_in(name).unwrap();
+            let asks_for_it =
+                |scene: &Scene| Studio::new(scene.clone()).hint().unwrap().contains("`2`");
+            assert!(asks_for_it(&scene), "{name}");
+            scene.opening_method = Some(scene.lanes[1].method);
+            assert!(!asks_for_it(&scene), "{name}");
+        }
     }
 
     #[test]

@@ -37,7 +37,7 @@ pub(super) fn show(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) {
         let room = ui.available_width();
         ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
             let colour = if is_hint { palette(ui).text } else { palette(ui).dim };
-            keycap::line(ui, &sentence, room, colour);
+            keycap::line(ui, &sentence, room, colour, Some(commands));
         });
     });
 }
@@ -158,6 +158,32 @@ mod tests {
         assert_eq!(spoken(&studio), at_first);
         studio.apply(StageCommand::Pick(1));
         assert_ne!(spoken(&studio), at_first);
+    }
+
+    #[test]
+    fn a_click_on_a_key_of_a_hint_does_what_the_key_does() {
+        use crate::view::testing::TestWindow;
+        let mut studio = Studio::new(Scene::built_in("spring").unwrap());
+        let mut window = TestWindow::new([390.0, 700.0]);
+        let clicked = |studio: &Studio, window: &mut TestWindow, key: &str| {
+            let (_, shown) = window.panels(studio, Vec::new());
+            let words = shown.whole();
+            // The digits of the chips stand above the line of the hint.
+            let cap = words.iter().filter(|(rect, text)| text == key && rect.top() > 660.0);
+            let at: Vec<_> = cap.map(|(rect, _)| rect.center()).collect();
+            assert_eq!(at.len(), 1, "{key} in {words:?}");
+            window.click(studio, at[0])
+        };
+        let hint = studio.hint().expect("a hint");
+        assert!(hint.contains("`2`"), "{hint}");
+        assert_eq!(clicked(&studio, &mut window, "2"), [Command::Stage(StageCommand::Pick(1))]);
+        studio.viewer.notice = None;
+        (0..90).for_each(|_| studio.tick());
+        studio.apply(StageCommand::Pick(1));
+        studio.apply(StageCommand::TickHz(60.into()));
+        let hint = studio.hint().expect("a hint");
+        assert!(hint.contains("`Home`"), "{hint}");
+        assert_eq!(clicked(&studio, &mut window, "Home"), [Command::Stage(StageCommand::Restart)]);
     }
 
     #[test]

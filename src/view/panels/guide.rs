@@ -32,9 +32,9 @@ pub(super) fn show(ui: &mut Ui, tour: &Tour, commands: &mut Vec<Command>) {
                 Some(_) => "Not quite. ",
                 None => "",
             };
-            keycap::paragraph(ui, &format!("{said}{}", stop.answer), palette(ui).text);
+            keycap::paragraph(ui, &format!("{said}{}", stop.answer), palette(ui).text, commands);
         } else {
-            keycap::paragraph(ui, stop.task, palette(ui).text);
+            keycap::paragraph(ui, stop.task, palette(ui).text, commands);
         }
         focus::follow(ui);
     });

@@ -1,8 +1,9 @@
-//! Keys drawn as boxes, and sentences with keys between backticks.
+//! Keys drawn as boxes, and sentences with keys between backticks. A click on a key does what the key does.
 
 use egui::{Align2, Color32, FontId, Painter, Rect, Response, Sense, Stroke, Ui, pos2, vec2};
 
 use super::parts::short;
+use crate::studio::{Command, commands_named};
 use crate::view::theme::{TYPE, palette, strong_font};
 
 /// Height of a key's box, minimum padding around its letter, and gap between a box and a word, in points.
@@ -54,6 +55,30 @@ pub(super) fn paint(ui: &Ui, left: f32, middle: f32, key: &str, colour: Color32)
     width
 }
 
+/// Draws a key's box in a sentence, as a button if the key has a command, and returns its width.
+fn button(
+    ui: &Ui,
+    [left, middle]: [f32; 2],
+    (index, key): (usize, &str),
+    commands: Option<&mut Vec<Command>>,
+) -> f32 {
+    let palette = palette(ui);
+    let pressed = commands.and_then(|commands| Some((commands, commands_named(key).next()?)));
+    let Some((commands, command)) = pressed else {
+        return paint(ui, left, middle, key, palette.accent);
+    };
+    let size = vec2(width(ui.painter(), key), HEIGHT);
+    let rect = Rect::from_min_size(pos2(left, middle - HEIGHT / 2.0), size);
+    // Whoever uses the keyboard has the key itself, so that the focus passes by.
+    let response = ui.interact(rect, ui.scope_id().with(("key", index)), Sense::CLICK);
+    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, key));
+    if response.clicked() {
+        commands.push(command.clone());
+    }
+    let colour = if response.hovered() { palette.text } else { palette.accent };
+    paint(ui, left, middle, key, colour)
+}
+
 /// Returns the width of a sentence in one line, in points.
 pub(super) fn line_width(ui: &Ui, sentence: &str) -> f32 {
     let of = |piece| match piece {
@@ -68,18 +93,24 @@ pub(super) fn line_width(ui: &Ui, sentence: &str) -> f32 {
 }
 
 /// Shows a sentence in one line of this width. If the sentence is too long, an ellipsis replaces its end, and the
-/// tooltip has all of it.
-pub(super) fn line(ui: &mut Ui, sentence: &str, room: f32, colour: Color32) -> Response {
+/// tooltip has all of it. Without `commands` its keys are no buttons.
+pub(super) fn line(
+    ui: &mut Ui,
+    sentence: &str,
+    room: f32,
+    colour: Color32,
+    mut commands: Option<&mut Vec<Command>>,
+) -> Response {
     let (rect, response) = ui.allocate_exact_size(vec2(room.max(0.0), HEIGHT), Sense::hover());
     let spoken = without_backticks(sentence);
     response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Label, true, &spoken));
     let (mut x, middle) = (rect.left(), rect.center().y);
     let mut is_whole = true;
-    for piece in pieces(sentence) {
+    for (index, piece) in pieces(sentence).enumerate() {
         let left = rect.right() - x;
         match piece {
             Piece::Key(key) if width(ui.painter(), key) <= left => {
-                x += paint(ui, x, middle, key, palette(ui).accent) + GAP;
+                x += button(ui, [x, middle], (index, key), commands.as_deref_mut()) + GAP;
             }
             Piece::Key(_) => is_whole = false,
             Piece::Words(words) => {
@@ -99,17 +130,21 @@ pub(super) fn line(ui: &mut Ui, sentence: &str, room: f32, colour: Color32) -> R
 }
 
 /// Shows a sentence in as many lines as necessary.
-pub(super) fn paragraph(ui: &mut Ui, sentence: &str, colour: Color32) {
+pub(super) fn paragraph(ui: &mut Ui, sentence: &str, colour: Color32, commands: &mut Vec<Command>) {
     ui.horizontal_wrapped(|ui| {
         ui.spacing_mut().item_spacing = vec2(4.0, 2.0);
-        for piece in pieces(sentence) {
+        for (index, piece) in pieces(sentence).enumerate() {
             match piece {
                 Piece::Key(key) => {
                     let size = vec2(width(ui.painter(), key), HEIGHT - 2.0);
                     let (rect, response) = ui.allocate_exact_size(size, Sense::hover());
-                    response
-                        .widget_info(|| egui::WidgetInfo::labeled(egui::Role::Label, true, key));
-                    paint(ui, rect.left(), rect.center().y, key, palette(ui).accent);
+                    if commands_named(key).next().is_none() {
+                        response.widget_info(|| {
+                            egui::WidgetInfo::labeled(egui::Role::Label, true, key)
+                        });
+                    }
+                    let at = [rect.left(), rect.center().y];
+                    button(ui, at, (index, key), Some(commands));
                 }
                 Piece::Words(words) => {
                     ui.add_space(-gap_reduction(words));
@@ -129,7 +164,9 @@ mod tests {
     fn a_screen_reader_hears_the_keys_of_a_paragraph() {
         let mut window = TestWindow::new([400.0, 300.0]);
         window.context.enable_accesskit();
-        let paragraph = |ui: &mut Ui| paragraph(ui, "Press `2` to switch.", Color32::WHITE);
+        let paragraph = |ui: &mut Ui| {
+            paragraph(ui, "Press `2` to switch.", Color32::WHITE, &mut Vec::new());
+        };
         let (_, shown) = window.show(Vec::new(), paragraph);
         for words in ["Press", "2", "to switch."] {
             assert!(shown.heard.iter().any(|heard| heard == words), "{:?}", shown.heard);

@@ -68,7 +68,7 @@ pub(super) fn quit_question(ui: &Ui, studio: &Studio, stage: Rect) {
         let top = inside.top() + row as f32 * (keycap::HEIGHT + GAP);
         let at = pos2(inside.center().x - of / 2.0, top);
         let row = UiBuilder::new().max_rect(Rect::from_min_size(at, vec2(of, keycap::HEIGHT)));
-        keycap::line(&mut ui.new_child(row), line, of + 1.0, palette.text);
+        keycap::line(&mut ui.new_child(row), line, of + 1.0, palette.text, None);
     }
 }
 

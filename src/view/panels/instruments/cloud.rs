@@ -18,7 +18,7 @@ use super::{body_choice, chart, choice};
 use crate::look::density_picture;
 use crate::look::palette::{Rgba, Theme};
 use crate::measure::cloud::{
-    CloudChoice, CloudKind, CloudPicture, Density, LaneCloud, MAX_LINE_PART, POINTS,
+    CloudChoice, CloudKind, CloudPicture, CloudRequest, Density, LaneCloud, MAX_LINE_PART, POINTS,
     hidden_in_words,
 };
 use crate::run::race::Mode;
@@ -136,7 +136,8 @@ pub(super) fn show(ui: &mut Ui, studio: &Studio, room: Vec2, commands: &mut Vec<
 /// Shows the title and the menus.
 fn head(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) {
     let chosen = studio.display().cloud;
-    let picture = shown_cloud(studio).and_then(|found| found.picture.as_ref().ok());
+    let shown = shown_cloud(studio);
+    let shown = shown.and_then(|found| Some((&*found.request, found.picture.as_ref().ok()?)));
     ui.horizontal_wrapped(|ui| {
         ui.label(RichText::new("Cloud").font(strong_font(15.0)).color(palette(ui).text));
         let kind = |kind: CloudKind| {
@@ -154,9 +155,9 @@ fn head(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) {
             choice(ui, "points of the cloud", offered, (command(chosen.points), &now), commands);
         }
         body_choice(ui, studio, commands);
-        let told = picture.map(|picture| match &picture.section {
+        let told = shown.map(|(request, picture)| match &picture.section {
             Some(section) => section.clone(),
-            None => format!("{}; {}", moment(studio, picture), legend(picture)),
+            None => format!("{}; {}", moment(studio, request, picture), legend(picture)),
         });
         if let Some(words) = told {
             ui.label(RichText::new(words).color(palette(ui).dim));
@@ -165,10 +166,10 @@ fn head(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) {
 }
 
 /// Describes the time of the clouds, and their lag behind the run if it is noticeable.
-fn moment(studio: &Studio, picture: &CloudPicture) -> String {
-    let Some(request) = cloud_request(studio) else { return String::new() };
+fn moment(studio: &Studio, request: &CloudRequest, picture: &CloudPicture) -> String {
+    let Some(now) = cloud_request(studio) else { return String::new() };
     let mut words = format!("t = {:.2} s", request.t_s(picture));
-    let behind = request.behind_s(picture);
+    let behind = request.behind_s(picture, &now);
     if behind > BEHIND_S {
         words += &format!(", {} s behind", significant(behind, 2));
     }
