@@ -43,7 +43,7 @@ pub(super) struct ShowArgs {
     /// The language: rust, c, cpp, csharp, gdscript, javascript, lua or step
     ///
     /// Methods have all of them, with the same code in cpp and c. Loops have rust, and some cpp and csharp. `step` is
-    /// the language of a method or a loop of your own, to change and give back.
+    /// the language of a method of your own, to change and give back.
     #[arg(long = "as", value_name = "LANGUAGE", default_value = Language::Rust.id())]
     #[arg(value_parser = CODE_LANGUAGE, hide_possible_values = true)]
     language: CodeLanguage,
