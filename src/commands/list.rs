@@ -75,7 +75,7 @@ pub(super) fn run(args: &ListArgs) -> Result<(), Error> {
         Listing::Bodies if args.format == TableFormat::Text => bodies_with_keys(),
         Listing::Bodies => write(BODY, &BODIES, args.format),
         Listing::Metrics => write(METRIC, METRICS, args.format),
-        Listing::Policies => write(POLICY, POLICIES, args.format),
+        Listing::Policies => write(POLICY, &POLICIES, args.format),
         Listing::EngineLoops => write(ENGINE, &ENGINES, args.format),
         Listing::Traces => write(TRACE, TRACES, args.format),
         Listing::Keys => write(KEY, KEYS, args.format),

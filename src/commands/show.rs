@@ -153,23 +153,24 @@ pub(super) fn run(args: &ShowArgs) -> Result<(), Error> {
     print(&code)
 }
 
-/// Returns the source code of a loop in a language.
+/// Returns the source code of a loop in a language. That of an engine is its lines.
 fn snippet(card: &PolicyCard, language: CodeLanguage) -> Result<&'static str, Error> {
-    if let (Some(engine), CodeLanguage::Step | CodeLanguage::Of(Language::Rust)) =
-        (card.engine, language)
-    {
-        return Ok(engine.text);
-    }
-    let found = |written: CodeLanguage| {
+    let found = |language: CodeLanguage| {
         let mut snippets = card.snippets.iter();
-        snippets.find(|snippet| snippet.language == written.of_loops())
+        match language {
+            CodeLanguage::Step => card.lines(),
+            _ => snippets.find(|it| it.language == language.of_loops()).map(|it| it.source),
+        }
     };
-    found(language).map(|snippet| snippet.source).ok_or_else(|| {
+    let language = match language {
+        CodeLanguage::Of(Language::Rust) if card.is_lines() => CodeLanguage::Step,
+        language => language,
+    };
+    found(language).ok_or_else(|| {
         let known =
             (CODE_LANGUAGE.all)().into_iter().filter(|(_, written)| found(*written).is_some());
         let known: Vec<String> = known.map(|(id, _)| id).collect();
         let asked = language.of_loops();
-        let known = if card.is_lines() { vec!["step".into()] } else { known };
         Error::mistake(format!(
             "{} is not written out in {asked}; give --as {}",
             card.id,

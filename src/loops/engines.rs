@@ -2,8 +2,7 @@
 
 use std::sync::LazyLock;
 
-use super::policies::VARIABLE;
-use super::policy::{Build, Engine, PolicyCard};
+use super::policy::{Build, Engine, PolicyCard, RENDER_TICK};
 use crate::run::race::Interpolation;
 use crate::sim::law::{ExpressionFault, LoopText};
 
@@ -57,40 +56,46 @@ pub static ENGINES: LazyLock<Vec<PolicyCard>> = LazyLock::new(|| {
     files.into_iter().map(|(id, text)| card(id, text, read(text))).collect()
 });
 
-/// Returns the card of the lines of a text under an id. A remark `# key: value` in the text gives its name, version and
-/// advice.
-fn card(id: &'static str, text: &'static str, lines: LoopText) -> PolicyCard {
+/// Returns the words of a remark `# key: words` of a text.
+pub(super) fn claim<'t>(text: &'t str, key: &str) -> &'t str {
+    let mut remarks = text.lines().filter_map(|line| line.strip_prefix("# "));
+    remarks.find_map(|remark| remark.strip_prefix(key)?.strip_prefix(": ")).unwrap_or_default()
+}
+
+/// Returns the card of the lines of a text under an id, with the claims of its remarks.
+pub(super) fn card(id: &'static str, text: &'static str, lines: LoopText) -> PolicyCard {
     let (shows, has_fixed_tick) = (lines.shows(), lines.has_fixed_tick());
-    let claim = |key: &str| {
-        let mut remarks = text.lines().filter_map(|line| line.strip_prefix("# "));
-        remarks.find_map(|remark| remark.strip_prefix(key)?.strip_prefix(": ")).unwrap_or_default()
-    };
+    let claim = |key| claim(text, key);
+    let or = |key, other| if claim(key).is_empty() { other } else { claim(key) };
     let constants = LoopText::constants(text).into_iter();
     let is_sign = |c: char| c.is_ascii_digit() || " .-*/".contains(c);
     let settings = constants.filter(|(_, _, value)| value.chars().all(is_sign));
     let settings: Vec<String> =
         settings.map(|(name, _, value)| format!("{name}={value}")).collect();
-    let name = Some(claim("name")).filter(|name| !name.is_empty()).unwrap_or(id);
+    let (name, has_render_tick) = (or("name", id), claim("draws") == RENDER_TICK);
+    let drawn = Interpolation::ALL.into_iter().find(|it| it.name() == claim("draws"));
+    let plain = if shows && !has_render_tick { Interpolation::Linear } else { Interpolation::Raw };
     PolicyCard {
         id,
         name,
         formula: claim("gives"),
+        has_max_ticks: settings.iter().any(|setting| setting.starts_with("max_ticks=")),
         constants: settings.join(", ").leak(),
         odd_frames: claim("caveat"),
-        users: name,
+        users: or("users", name),
         source: claim("known"),
-        drawing: if shows { Interpolation::Linear } else { Interpolation::Raw },
+        drawing: drawn.unwrap_or(plain),
+        has_render_tick,
         has_fixed_tick,
         needs_exact_clock: has_fixed_tick && !shows && claim("steady").is_empty(),
+        is_usual: !claim("usual").is_empty(),
         snippets: &[],
         build: Build::Lines(Box::leak(Box::new(lines))),
         engine: Some(Engine {
             version: claim("version"),
             caveat: claim("caveat"),
             advice: claim("set"),
-            text,
         }),
-        ..VARIABLE
     }
 }
 
@@ -127,7 +132,8 @@ impl PolicyCard {
         &'static self,
         settings: &[(String, f64)],
     ) -> Result<&'static Self, (String, Vec<String>)> {
-        let Some(Engine { text, .. }) = self.engine.filter(|_| !settings.is_empty()) else {
+        let is_set = self.engine.is_some() && !settings.is_empty();
+        let Some(text) = self.lines().filter(|_| is_set) else {
             return match settings.first() {
                 Some((name, _)) => Err((name.clone(), Vec::new())),
                 None => Ok(self),

@@ -2,7 +2,7 @@
 
 use super::engines::ENGINES;
 use super::pacer::Pacer;
-use super::policies::{POLICIES, VARIABLE};
+use super::policies::POLICIES;
 use super::policy::{Build, PolicyCard};
 use super::time_base::TimeBase;
 use super::trace::FrameTrace;
@@ -75,7 +75,8 @@ impl ShownLog {
             source: "a column of the log",
             snippets: &[],
             build: Build::Replay(moments_ms),
-            ..VARIABLE
+            is_usual: false,
+            ..POLICIES[0]
         }));
         Some(Self { card, taken, moments_ms })
     }

@@ -69,7 +69,7 @@ pub struct LoopLab {
     /// The request to run all loops.
     request: Arc<LoopRequest>,
     lanes: Vec<LoopLane>,
-    /// The chosen engine, whose lane is the last.
+    /// The chosen engine or loop of a person, whose lane is the last.
     engine: Option<&'static PolicyCard>,
     /// The recommended loop or, if there is none, the reason; `None` until all loops have run.
     advice: Option<Result<AdvisedLoop, NoLoop>>,
@@ -252,14 +252,20 @@ impl LoopLab {
     pub fn trace(&self) -> usize {
         self.trace
     }
-    /// Returns the chosen engine.
+    /// Returns the chosen engine, or loop of a person.
     pub fn engine(&self) -> Option<&'static PolicyCard> {
         self.engine
     }
 
     /// Runs the engine with this index in [`ENGINES`] beside the loops, and puts it on the stage.
     pub fn choose_engine(&mut self, index: usize) {
-        let Some(card) = ENGINES.get(index) else { return };
+        if let Some(card) = ENGINES.get(index) {
+            self.run_beside(card);
+        }
+    }
+
+    /// Runs the loop of an engine or of a person beside the others, and puts it on the stage.
+    pub(crate) fn run_beside(&mut self, card: &'static PolicyCard) {
         self.engine = Some(card);
         self.lanes.truncate(POLICIES.len());
         self.lanes.push(LoopLane::awaited(card));

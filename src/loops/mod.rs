@@ -1,14 +1,15 @@
 //! Game loops and their effect on motion, independent of the method that steps it.
 //!
-//! A [`FrameTrace`] records when each [`Frame`] began and when its picture was displayed. A [`Policy`] knows only the
-//! duration of the last frame, as a game does, and decides on steps and the moment to show. [`POLICIES`] lists all
-//! policies. A [`PacedLane`] steps bodies by a policy, a [`LoopRun`] runs such a lane over a trace, and
-//! [`PACING_METRICS`] measure how the motion looks on the display. Time is counted in whole numbers of a [`TimeBase`];
-//! there is no clock here.
+//! A [`FrameTrace`] records when each [`Frame`] began and when its picture was displayed. A policy is a file of
+//! [lines](crate::sim::law::LoopText). It knows only the duration of the last frame, as a game does, and decides on
+//! steps and the moment to show. [`POLICIES`] lists the ideal ones, and [`ENGINES`] those of engines. A [`PacedLane`]
+//! steps bodies by a policy, a [`LoopRun`] runs such a lane over a trace, and [`PACING_METRICS`] measure how the motion
+//! looks on the display. Time is counted in whole numbers of a [`TimeBase`]; there is no clock here.
 
 mod advice;
 mod engines;
 mod hitch;
+mod lines;
 pub mod log;
 pub mod loop_lab;
 mod loop_run;
@@ -35,7 +36,7 @@ pub use paced_lane::PacedLane;
 pub use pacer::Pacer;
 pub use patterns::{TRACES, TraceCard, frames_on_display, steady_trace, trace_card};
 pub use policies::{POLICIES, policy};
-pub use policy::{Engine, Excess, FrameLimits, LongFrame, Policy, PolicyCard, Snippet, Steps};
+pub use policy::{Engine, Excess, FrameLimits, LongFrame, PolicyCard, Snippet, Steps};
 pub use time_base::{RefreshRate, TimeBase};
 pub use trace::{Frame, FrameTrace, Frames};
 pub use verdict::LoopVerdict;

@@ -1,10 +1,17 @@
 //! A policy at work, and the time that it has simulated.
 
-use super::policies::lines::Lines;
-use super::policy::{Build, Excess, FrameLimits, LongFrame, Policy, PolicyCard, Steps};
+use super::lines::Lines;
+use super::policy::{Build, Excess, FrameLimits, LongFrame, PolicyCard, Steps};
 use super::replay::Replay;
 use super::time_base::TimeBase;
 use crate::run::race::Interpolation;
+
+/// A policy at work.
+#[derive(Clone)]
+enum Policy {
+    Lines(Lines),
+    Replay(Replay),
+}
 
 /// A game loop, which decides for each frame on the steps and the moment to show. Times are in the unit of its
 /// [`TimeBase`].
@@ -12,7 +19,7 @@ use crate::run::race::Interpolation;
 pub struct Pacer {
     card: &'static PolicyCard,
     base: TimeBase,
-    policy: Box<dyn Policy>,
+    policy: Policy,
     /// Maximum frame duration, if one is set.
     longest: Option<i128>,
     long_frame: Option<LongFrame>,
@@ -35,9 +42,8 @@ impl Pacer {
     /// Like [`new`](Self::new), with limits on the work in a frame.
     pub fn limited(card: &'static PolicyCard, base: TimeBase, limits: FrameLimits) -> Self {
         let policy = match card.build {
-            Build::Rust(build) => build(base, limits),
-            Build::Replay(moments_ms) => Box::new(Replay::new(moments_ms, base)),
-            Build::Lines(text) => Box::new(Lines::new(text, base, limits)),
+            Build::Replay(moments_ms) => Policy::Replay(Replay::new(moments_ms, base)),
+            Build::Lines(text) => Policy::Lines(Lines::new(text, base, limits)),
         };
         let longest = limits.max_frame_ms.map(|ms| base.nanoseconds(i64::from(ms) * 1_000_000));
         let FrameLimits { long_frame, excess, .. } = limits;
@@ -74,7 +80,10 @@ impl Pacer {
     }
     /// Returns the length of a tick.
     pub fn tick(&self) -> i128 {
-        self.policy.tick().unwrap_or(self.base.tick())
+        match &self.policy {
+            Policy::Lines(lines) => lines.tick(),
+            Policy::Replay(_) => self.base.tick(),
+        }
     }
     /// Returns the dropped time.
     pub fn dropped(&self) -> i128 {
@@ -96,7 +105,7 @@ impl Pacer {
     pub fn frame_in_ms(&mut self, duration_ns: i64, ms: f64) -> Steps {
         if self.card.is_lines() || self.card.is_log() {
             let duration = self.base.nanoseconds(duration_ns);
-            let steps = self.policy.frame_in_ms(duration, ms);
+            let steps = self.decide(duration, ms);
             self.passed += duration;
             self.simulated += steps.span;
             self.dropped += steps.dropped;
@@ -106,7 +115,7 @@ impl Pacer {
         let counted_ns = self.counted_ns(duration_ns.max(0));
         let counted = self.base.nanoseconds(counted_ns);
         let counted = self.longest.map_or(counted, |longest| counted.min(longest));
-        let mut steps = self.policy.frame(counted + self.kept);
+        let mut steps = self.decide(counted + self.kept, ms);
         if self.excess == Excess::Keep {
             self.kept = std::mem::take(&mut steps.dropped);
         }
@@ -115,6 +124,21 @@ impl Pacer {
         self.simulated += steps.span;
         self.dropped += steps.dropped;
         steps
+    }
+
+    fn decide(&mut self, duration: i128, ms: f64) -> Steps {
+        match &mut self.policy {
+            Policy::Lines(lines) => lines.frame(duration, ms),
+            Policy::Replay(replay) => replay.frame(duration),
+        }
+    }
+
+    /// Returns the time since the last tick, for drawing between ticks.
+    fn since_tick(&self) -> i128 {
+        match &self.policy {
+            Policy::Lines(lines) => lines.owed(),
+            Policy::Replay(_) => 0,
+        }
     }
 
     /// Returns the duration in nanoseconds with which a frame counts.
@@ -138,12 +162,12 @@ impl Pacer {
     /// Returns the position of the picture between the last tick and the next. It is in [0, 1] for policies that draw
     /// between ticks, in [-1/2, 3/2) under `hysteresis`, and 0 for policies without ticks.
     pub fn alpha(&self) -> f64 {
-        self.policy.owed() as f64 / self.tick() as f64
+        self.since_tick() as f64 / self.tick() as f64
     }
 
     /// Returns the simulated moment in the picture. With interpolation, this moment begins one tick before the start.
     pub fn drawn_moment(&self) -> i128 {
-        let now = self.simulated + self.policy.owed();
+        let now = self.simulated + self.since_tick();
         match self.card.drawing {
             Interpolation::Raw if !self.card.has_render_tick => self.simulated,
             Interpolation::Raw | Interpolation::Extrapolated => now,

@@ -1,6 +1,5 @@
-//! The policy of a game loop, which decides on the steps of each frame, and its card.
+//! The card of a game loop's policy, and the steps on which it decides.
 
-use super::time_base::TimeBase;
 use crate::run::race::Interpolation;
 use crate::sim::law::LoopText;
 
@@ -15,13 +14,6 @@ pub struct Steps {
     pub dropped: i128,
     /// Number of ticks that the engine reports, if it makes another number.
     pub returned: Option<u32>,
-}
-
-impl Steps {
-    /// Returns one step of this length, or none if the length is 0.
-    pub fn one(span: i128) -> Self {
-        Self { count: u32::from(span > 0), span, ..Self::default() }
-    }
 }
 
 /// The fate of ticks beyond the maximum of a frame.
@@ -63,38 +55,6 @@ pub struct FrameLimits {
     pub long_frame: Option<LongFrame>,
     /// Cost of a tick in milliseconds, for loops that count it.
     pub cost_ms: Option<u32>,
-}
-
-/// A game loop's decisions and memory. Times are in the unit of a [`TimeBase`].
-pub trait Policy: Send {
-    /// Decides on the steps of a frame. `duration` is the duration of the last frame as a game would measure it, and
-    /// never negative.
-    fn frame(&mut self, duration: i128) -> Steps;
-
-    /// Decides on the steps of a frame like [`frame`](Self::frame), with its duration in milliseconds as a game reads
-    /// it.
-    fn frame_in_ms(&mut self, duration: i128, _ms: f64) -> Steps {
-        self.frame(duration)
-    }
-
-    /// Returns the length of a tick, if the policy has its own.
-    fn tick(&self) -> Option<i128> {
-        None
-    }
-
-    /// Returns the time since the last tick, for drawing between ticks; 0 for a policy without ticks.
-    fn owed(&self) -> i128 {
-        0
-    }
-
-    /// Returns a copy of the policy with its memory.
-    fn boxed_clone(&self) -> Box<dyn Policy>;
-}
-
-impl Clone for Box<dyn Policy> {
-    fn clone(&self) -> Self {
-        self.boxed_clone()
-    }
 }
 
 /// The source code of a loop in one language, to copy into a game.
@@ -154,14 +114,14 @@ pub struct Engine {
     pub caveat: &'static str,
     /// What to set.
     pub advice: &'static str,
-    /// The lines of the loop.
-    pub text: &'static str,
 }
+
+/// The name of a picture of a copy, for people.
+pub(super) const RENDER_TICK: &str = "a copy stepped on";
 
 /// How a policy is made.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Build {
-    Rust(fn(TimeBase, FrameLimits) -> Box<dyn Policy>),
     Lines(&'static LoopText),
     /// The moments of a log, in milliseconds.
     Replay(&'static [f64]),
@@ -173,14 +133,22 @@ impl PolicyCard {
         matches!(self.build, Build::Replay(_))
     }
 
-    /// Whether the loop is lines, which may be given times below 0.
+    /// Returns the lines of the loop; `None` for a log.
+    pub fn lines(&self) -> Option<&'static str> {
+        match self.build {
+            Build::Lines(lines) => Some(lines.source()),
+            Build::Replay(_) => None,
+        }
+    }
+
+    /// Whether the loop is that of an engine or of a person, which may be given times below 0.
     pub fn is_lines(&self) -> bool {
-        matches!(self.build, Build::Lines(_))
+        self.engine.is_some()
     }
 
     /// Returns the name of the interpolation between ticks, for people.
     pub fn drawing_name(&self) -> &'static str {
-        if self.has_render_tick { "a copy stepped on" } else { self.drawing.name() }
+        if self.has_render_tick { RENDER_TICK } else { self.drawing.name() }
     }
 
     /// Whether the picture can lie beyond the last tick. The bodies are then drawn as if nothing acted on them in the

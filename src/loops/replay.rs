@@ -1,6 +1,6 @@
 //! A log at work as a loop.
 
-use super::policy::{Policy, Steps};
+use super::policy::Steps;
 use super::time_base::TimeBase;
 
 /// Steps by the difference of a log's moments.
@@ -20,22 +20,13 @@ impl Replay {
         let millisecond = self.base.nanoseconds(1_000_000) as f64;
         self.moments_ms.get(index).map(|ms| (ms * millisecond).round() as i128)
     }
-}
 
-impl Policy for Replay {
-    fn frame(&mut self, duration: i128) -> Steps {
+    /// Returns the step of a frame.
+    pub(super) fn frame(&mut self, duration: i128) -> Steps {
         let before = self.next.checked_sub(1).and_then(|index| self.moment(index));
         let span =
             self.moment(self.next).zip(before).map_or(duration, |(now, before)| now - before);
         self.next += 1;
         Steps { count: u32::from(span != 0), span, ..Steps::default() }
-    }
-
-    fn frame_in_ms(&mut self, duration: i128, _ms: f64) -> Steps {
-        self.frame(duration)
-    }
-
-    fn boxed_clone(&self) -> Box<dyn Policy> {
-        Box::new(*self)
     }
 }

@@ -263,7 +263,7 @@ impl Accumulator {
 }
 
 /// Returns the maximum number of ticks in a frame, which is the ticks in `longest_ms` milliseconds, and at least one.
-pub(crate) fn max_ticks(tick_hz: TickRate, speed_percent: u32, longest_ms: u32) -> u32 {
+fn max_ticks(tick_hz: TickRate, speed_percent: u32, longest_ms: u32) -> u32 {
     let [ticks, seconds] = tick_hz.ratio().map(u128::from);
     let ticks = ticks * u128::from(speed_percent) * u128::from(longest_ms);
     let most = ticks.div_ceil(seconds * 100 * 1000);

@@ -10,11 +10,11 @@ use super::guide::Goal;
 use super::guiding::{close_guide, return_from_guide};
 use super::instrument::Instrument;
 use super::step::Step;
-use super::viewer::Viewer;
-use crate::loops::FrameTrace;
+use super::viewer::{Dialog, Viewer};
 use crate::loops::loop_lab::{
     FoundLoop, LoopCommand, LoopLab, LoopRequest, LoopWorker, SLOWNESS, SLOWNESS_AT_FIRST,
 };
+use crate::loops::{FrameTrace, PolicyCard};
 use crate::scene::SceneBody;
 use crate::sim::integrators::{Method, method};
 
@@ -127,6 +127,26 @@ pub fn open_traces(studio: &mut Studio, traces: Vec<FrameTrace>) {
         if let Some(missing) = missing {
             studio.viewer.set_notice(missing);
         }
+    }
+}
+
+/// Whether the loop lab runs the loop with this id beside the ideal ones.
+pub fn runs_beside(studio: &Studio, id: &str) -> bool {
+    let engine = studio.loop_lab().and_then(|loops| loops.engine());
+    engine.is_some_and(|card| card.id == id)
+}
+
+/// Runs a person's own loop beside the others in the loop lab, which opens if it is closed.
+pub fn open_own_loop(studio: &mut Studio, card: &'static PolicyCard) {
+    let told = if runs_beside(studio, card.id) { "reloaded" } else { "runs beside the others" };
+    if studio.loop_lab().is_none() {
+        open_loop_lab(studio);
+    }
+    if let Some(loops) = &mut studio.loops {
+        loops.run_beside(card);
+        loops.end_opening();
+        studio.viewer.dialog.take_if(|dialog| matches!(dialog, Dialog::Mistakes { .. }));
+        studio.viewer.set_notice(format!("{}: {told}", card.id));
     }
 }
 

@@ -1,17 +1,17 @@
-//! Opens scene files, traces and methods that are dropped on the window or typed as paths, and completes paths.
+//! Opens scene files, traces, methods and loops that are dropped on the window or typed as paths, and completes paths.
 
 use std::path::{MAIN_SEPARATOR, Path, PathBuf, is_separator};
 use std::sync::Arc;
 
 use super::caught::caught;
-use crate::loops::{FrameTrace, trace_file};
+use crate::loops::{FrameTrace, PolicyCard, own_loop, trace_file};
 use crate::regular_file::{self, MAX_TABLE_BYTES};
 use crate::run::diff::{Chosen, Comparison, NotComparable, Tolerance, diff};
 use crate::run::trace::{Made, last_tick};
-use crate::scene::{LaneSpec, MAX_FILE_BYTES, SCENES, Scene, ShownError, is_rule};
+use crate::scene::{LaneSpec, MAX_FILE_BYTES, SCENES, Scene, SceneErrors, ShownError, is_rule};
 use crate::studio::{
-    SceneList, StageCommand, Studio, ViewCommand, open_file, open_traces, race_own_method,
-    refuse_typed_path, show_comparison, show_mistakes,
+    SceneList, StageCommand, Studio, ViewCommand, open_file, open_own_loop, open_traces,
+    race_own_method, refuse_typed_path, runs_beside, show_comparison, show_mistakes,
 };
 
 /// Reads a scene file. Returns its scene and its text, or its mistakes as the command line would print them.
@@ -35,6 +35,8 @@ pub struct SceneFiles {
 pub(super) struct RequestedFile {
     path: PathBuf,
     is_typed: bool,
+    /// Whether the file is a loop that was opened before, and has changed.
+    has_changed: bool,
     /// The run to compare the file with, if it is not to be opened.
     compared: Option<Box<Scene>>,
 }
@@ -53,6 +55,8 @@ enum FileContent {
     Traces(Vec<FrameTrace>),
     /// A lane with a person's own method.
     Lane(LaneSpec),
+    /// A person's own loop, and its text.
+    Loop(&'static PolicyCard, String),
     /// The comparison with the run, and the recording.
     Compared(Box<(Comparison, Scene)>),
 }
@@ -60,7 +64,12 @@ enum FileContent {
 impl RequestedFile {
     /// The dropped file at `path`.
     pub(super) fn dropped(studio: &Studio, path: &Path) -> Self {
-        Self { path: listed_path(studio, path), is_typed: false, compared: None }
+        Self {
+            path: listed_path(studio, path),
+            is_typed: false,
+            has_changed: false,
+            compared: None,
+        }
     }
 
     /// The typed file, as the command line reads it. The name of a built-in scene opens that scene at once and
@@ -69,13 +78,29 @@ impl RequestedFile {
         let typed = studio.viewer.typed_path().trim().to_owned();
         if studio.viewer.compares_typed_path() {
             let compared = Some(studio.deck.recorded().into());
-            return Some(Self { path: from_home(&typed), is_typed: true, compared });
+            return Some(Self {
+                path: from_home(&typed),
+                is_typed: true,
+                has_changed: false,
+                compared,
+            });
         }
         if let Some(index) = SCENES.iter().position(|scene| scene.name == typed) {
             studio.apply(StageCommand::Scene(index));
             return None;
         }
-        Some(Self { path: listed_path(studio, &from_home(&typed)), is_typed: true, compared: None })
+        Some(Self {
+            path: listed_path(studio, &from_home(&typed)),
+            is_typed: true,
+            has_changed: false,
+            compared: None,
+        })
+    }
+
+    /// The file of a loop that has changed; `None` for another file.
+    pub(super) fn changed_loop(path: &Path) -> Option<Self> {
+        let path = has_ending(path, "loop").then(|| path.to_owned())?;
+        Some(Self { path, is_typed: false, has_changed: true, compared: None })
     }
 
     /// Whether the path is a link to a run instead of a file.
@@ -101,6 +126,8 @@ impl RequestedFile {
             traces_in(&self.path).map(FileContent::Traces)
         } else if has_ending(&self.path, "step") {
             lines_in(&self.path, read)
+        } else if has_ending(&self.path, "loop") {
+            loop_in(&self.path)
         } else {
             scene_in(&self.path, read)
         }
@@ -115,10 +142,12 @@ pub(super) fn read_caught<T>(
 }
 
 impl ReadFile {
-    /// Path and text of the file, if it is a scene.
-    pub(super) fn scene(&self) -> Option<(PathBuf, String)> {
+    /// Path and text of the file, if it is a scene or a loop.
+    pub(super) fn watched(&self) -> Option<(PathBuf, String)> {
         match &self.content {
-            Ok(FileContent::Scene { text, .. }) if !self.requested.is_link() => {
+            Ok(FileContent::Scene { text, .. } | FileContent::Loop(_, text))
+                if !self.requested.is_link() =>
+            {
                 Some((self.requested.path.clone(), text.clone()))
             }
             _ => None,
@@ -129,7 +158,11 @@ impl ReadFile {
     /// field, which stays open.
     pub(super) fn show(self, studio: &mut Studio) {
         let name = self.requested.is_link().then(|| "a link".into());
-        let RequestedFile { path, is_typed, .. } = self.requested;
+        let RequestedFile { path, is_typed, has_changed, .. } = self.requested;
+        // A changed loop that the lab no longer runs is not run again.
+        if has_changed && !runs_beside(studio, &stem(&path)) {
+            return;
+        }
         let path = name.unwrap_or(path);
         match self.content {
             Ok(FileContent::Scene { scene, .. }) => open_file(studio, &path, *scene),
@@ -141,6 +174,12 @@ impl ReadFile {
             }
             Ok(FileContent::Lane(lane)) => {
                 race_own_method(studio, lane);
+                if is_typed {
+                    studio.apply(ViewCommand::CloseDialog);
+                }
+            }
+            Ok(FileContent::Loop(card, _)) => {
+                open_own_loop(studio, card);
                 if is_typed {
                     studio.apply(ViewCommand::CloseDialog);
                 }
@@ -184,8 +223,7 @@ fn scene_in(path: &Path, read: &ReadScene) -> Result<FileContent, Vec<ShownError
 
 /// Reads a file of lines: a method is a lane of the open scene, a rule a scene of its own.
 fn lines_in(path: &Path, read: &ReadScene) -> Result<FileContent, Vec<ShownError>> {
-    let lines = regular_file::read(path, MAX_FILE_BYTES)
-        .map_err(|why| vec![format!("error: cannot read {}: {why}", path.display()).into()])?;
+    let lines = bytes_of(path, MAX_FILE_BYTES)?;
     if !is_rule(&lines) {
         let name = path.file_name().unwrap_or_default().to_string_lossy();
         return LaneSpec::from_step(&name, &lines).map(FileContent::Lane).map_err(Vec::from);
@@ -198,9 +236,28 @@ fn lines_in(path: &Path, read: &ReadScene) -> Result<FileContent, Vec<ShownError
     })
 }
 
+/// Reads a person's own loop, which is named after its file.
+fn loop_in(path: &Path) -> Result<FileContent, Vec<ShownError>> {
+    let name = path.file_name().unwrap_or_default().to_string_lossy();
+    let text = String::from_utf8(bytes_of(path, MAX_FILE_BYTES)?)
+        .map_err(|_| vec![format!("error: {name} is not text; save it as UTF-8").into()])?;
+    match own_loop(&stem(path), &text) {
+        Ok(card) => Ok(FileContent::Loop(card, text)),
+        Err(fault) => Err(SceneErrors::of_step(&name, &text, fault).into()),
+    }
+}
+
+fn bytes_of(path: &Path, most: usize) -> Result<Vec<u8>, Vec<ShownError>> {
+    regular_file::read(path, most)
+        .map_err(|why| vec![format!("error: cannot read {}: {why}", path.display()).into()])
+}
+
+fn stem(path: &Path) -> String {
+    path.file_stem().unwrap_or_default().to_string_lossy().into_owned()
+}
+
 fn traces_in(path: &Path) -> Result<Vec<FrameTrace>, Vec<ShownError>> {
-    let bytes = regular_file::read(path, MAX_TABLE_BYTES)
-        .map_err(|why| vec![format!("error: cannot read {}: {why}", path.display()).into()])?;
+    let bytes = bytes_of(path, MAX_TABLE_BYTES)?;
     let name = path.file_name().unwrap_or_default().to_string_lossy();
     trace_file::from_bytes(&name, &bytes).map_err(|error| vec![format!("error: {error}").into()])
 }
@@ -221,7 +278,7 @@ fn from_home(typed: &str) -> PathBuf {
     }
 }
 
-/// Completes a path with the common beginning of all matching folders and TOML files.
+/// Completes a path with the common beginning of all matching folders and files of scenes and lines.
 pub(super) fn complete_path(typed: &str) -> String {
     // Windows has two separators, each of one byte like that of other systems.
     let (folder, begun) = match typed.rfind(is_separator) {
@@ -240,7 +297,7 @@ pub(super) fn complete_path(typed: &str) -> String {
         if path.is_dir() {
             return Some(format!("{name}{MAIN_SEPARATOR}"));
         }
-        ["toml", "step"].iter().any(|ending| has_ending(&path, ending)).then_some(name)
+        ["toml", "step", "loop"].iter().any(|ending| has_ending(&path, ending)).then_some(name)
     });
     let common = fitting.reduce(|common, name| {
         let alike = common.chars().zip(name.chars()).take_while(|(a, b)| a == b);
@@ -252,6 +309,7 @@ pub(super) fn complete_path(typed: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::loops::POLICIES;
     use crate::run::link;
     use crate::studio::{Compared, Dialog, RunCommand};
     use crate::tools::rule::rule_scene;
@@ -303,10 +361,46 @@ mod tests {
         studio.apply(ViewCommand::AskForPath);
         studio.apply(ViewCommand::TypePath(format!("https://example.org/{link}")));
         let found = RequestedFile::typed(&mut studio).unwrap().read(&read());
-        assert_eq!(found.scene(), None);
+        assert_eq!(found.watched(), None);
         found.show(&mut studio);
         assert_eq!((studio.deck.scene_name().as_str(), studio.race().tick()), ("a link", 0));
         assert_eq!(studio.scene().checks.last().unwrap().tick, 90);
+    }
+
+    #[test]
+    fn a_dropped_loop_runs_beside_the_others_and_a_changed_one_replaces_it() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("mine.loop");
+        let mut studio = Studio::new(Scene::built_in("spring").unwrap());
+        let show = |studio: &mut Studio, lines: &str, has_changed: bool| {
+            std::fs::write(&path, lines).unwrap();
+            let requested = match has_changed {
+                true => RequestedFile::changed_loop(&path).unwrap(),
+                false => RequestedFile::dropped(studio, &path),
+            };
+            let found = requested.read(&read());
+            let watched = found.watched();
+            found.show(studio);
+            watched
+        };
+        // A file that changes does not open the lab.
+        show(&mut studio, "tick 1", true);
+        assert!(studio.loop_lab().is_none());
+        let watched = show(&mut studio, "tick 1", false);
+        assert_eq!(watched, Some((path.clone(), "tick 1".to_owned())));
+        let own = |studio: &Studio| studio.loop_lab().and_then(|loops| loops.engine()).unwrap();
+        let first = own(&studio);
+        assert!(first.id == "mine" && first.has_fixed_tick);
+        let lab = studio.loop_lab().unwrap();
+        assert!(lab.lanes().len() == POLICIES.len() + 1 && lab.selected() == POLICIES.len());
+        show(&mut studio, "tick 1 of dtt", true);
+        let Some(Dialog::Mistakes { report, .. }) = studio.viewer.dialog() else { panic!() };
+        assert!(report[0].message.starts_with("mine.loop:1:11: unknown name `dtt`"), "{report:?}");
+        assert!(std::ptr::eq(own(&studio), first));
+        show(&mut studio, "tick 1 of dt", true);
+        assert!(studio.viewer.dialog().is_none() && !own(&studio).has_fixed_tick);
+        assert_eq!(studio.viewer.notice.as_deref(), Some("mine: reloaded"));
+        assert!(RequestedFile::changed_loop(Path::new("mine.toml")).is_none());
     }
 
     #[test]
@@ -354,7 +448,7 @@ mod tests {
         });
         let mut studio = Studio::new(Scene::built_in("spring").unwrap());
         let found = RequestedFile::dropped(&studio, &path).read(&rule);
-        assert_eq!(found.scene(), Some((path.clone(), lines.to_owned())));
+        assert_eq!(found.watched(), Some((path.clone(), lines.to_owned())));
         found.show(&mut studio);
         assert_eq!((studio.scene().name.as_str(), studio.race().entrants().len()), ("mine", 3));
         std::fs::write(&path, "x -= x * abs(x)").unwrap();
@@ -395,12 +489,12 @@ mod tests {
         std::fs::write(&bad, "tick_hz = 0").unwrap();
         let mut studio = Studio::new(Scene::built_in("spring").unwrap());
         let found = RequestedFile::dropped(&studio, &good).read(&read());
-        assert_eq!(found.scene(), Some((good, text.to_owned())));
+        assert_eq!(found.watched(), Some((good, text.to_owned())));
         found.show(&mut studio);
         assert_eq!(studio.deck.scene_name(), "ship.toml");
         studio.tick();
         let found = RequestedFile::dropped(&studio, &bad).read(&read());
-        assert_eq!(found.scene(), None);
+        assert_eq!(found.watched(), None);
         found.show(&mut studio);
         assert_eq!((studio.deck.scene_name().as_str(), studio.race().tick()), ("ship.toml", 1));
         let Some(Dialog::Mistakes { report, .. }) = studio.viewer.dialog() else { panic!() };

@@ -1,5 +1,5 @@
-//! Reads opened files, and watches the scenes among them for changes. This happens on a separate thread, because a
-//! disk can be slow.
+//! Reads opened files, and watches the scenes and the loops among them for changes. This happens on a separate thread,
+//! because a disk can be slow.
 
 use std::path::{Path, PathBuf};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
@@ -45,7 +45,7 @@ impl FileWatch {
         Self { files }
     }
 
-    /// Reads a file, and watches it if it is a scene.
+    /// Reads a file, and watches it if it is a scene or a loop.
     pub(super) fn open(&self, requested: RequestedFile) {
         // If the thread has ended, the window ends too.
         _ = self.files.send(requested);
@@ -67,7 +67,7 @@ fn watch(
         match requested {
             Ok(requested) => {
                 let found = requested.read(read);
-                if let Some((path, text)) = found.scene() {
+                if let Some((path, text)) = found.watched() {
                     files.retain(|known| known.path != path);
                     files.extend(WatchedFile::of_scene(path, text));
                 }
@@ -80,9 +80,13 @@ fn watch(
                     let path = file.path.clone();
                     let event = match file.check() {
                         FileCheck::Same => continue,
-                        FileCheck::Changed => {
-                            Event::FileChanged { read: read_caught(|| read(&path)).into(), path }
-                        }
+                        FileCheck::Changed => match RequestedFile::changed_loop(&path) {
+                            Some(changed) => Event::FileRead(changed.read(read)),
+                            None => Event::FileChanged {
+                                read: read_caught(|| read(&path)).into(),
+                                path,
+                            },
+                        },
                         FileCheck::Gone => Event::FileGone(path),
                         FileCheck::Back => Event::FileBack(path),
                     };

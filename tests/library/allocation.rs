@@ -4,6 +4,7 @@
 use std::alloc::{GlobalAlloc, Layout, System as SystemAllocator};
 use std::cell::Cell;
 
+use regatta::loops::{ENGINES, POLICIES, Pacer, RefreshRate, TimeBase};
 use regatta::run::{Observations, Race};
 use regatta::scene::{Action, Options, SCENES, Scene};
 use regatta::sim::bodies::{Follow, Grid, NetLayout, NetPlan, Pin, Ship, Spring, net_kind};
@@ -138,6 +139,21 @@ fn no_engine_allocates_in_hundreds_of_steps() {
     let first = METHODS.iter().position(Method::is_engine).expect("engines");
     let ship = Ship { drag: 1.0, mass: 2.0, thrust: 3.0, ..Ship::BLANK };
     all_step_without_allocating(&METHODS[first..], &problem(ship), &0.0, |it, _| fresh(it));
+}
+
+#[test]
+fn no_loop_allocates_in_hundreds_of_frames() {
+    let base = TimeBase::new(60, RefreshRate::new(2997, 50));
+    for card in POLICIES.iter().chain(ENGINES.iter()) {
+        let mut pacer = Pacer::new(card, base);
+        let mut ticks = 0;
+        let count = allocations_in(|| {
+            for n in 0..500 {
+                ticks += pacer.frame(16_683_350 + n * n % 9_000_000).count;
+            }
+        });
+        assert!(count == 0 && ticks > 100, "{}: {count} allocations, {ticks} ticks", card.id);
+    }
 }
 
 /// The built-in scenes of nets, or all others: thousands of ticks of a net take minutes in an unoptimised build.

@@ -1,7 +1,8 @@
 //! The loops of engines make the ticks that the engines made, and loops of lines are read or refused.
 
 use regatta::loops::{
-    ENGINES, FrameLimits, Hitch, Pacer, PolicyCard, RefreshRate, Steps, TimeBase, engine, own_loop,
+    ENGINES, FrameLimits, Hitch, POLICIES, Pacer, PolicyCard, RefreshRate, Steps, TimeBase, engine,
+    own_loop,
 };
 use serde_json::Value;
 
@@ -132,6 +133,31 @@ fn lines_make_ticks_in_loops_and_remember_in_arrays() {
 }
 
 #[test]
+fn the_lines_of_every_ideal_loop_can_be_given_back() {
+    for card in POLICIES.iter() {
+        let own = own_loop(card.id, card.lines().unwrap()).unwrap();
+        assert_eq!(own.drawing_name(), card.drawing_name());
+        assert_eq!(own.has_fixed_tick, card.has_fixed_tick, "{}", card.id);
+        assert_eq!(own.needs_exact_clock, card.needs_exact_clock, "{}", card.id);
+        let base = TimeBase::new(64, RefreshRate::new(2997, 50));
+        let [mut known, mut found] = [card, own].map(|card| Pacer::new(card, base));
+        for n in 0..3000_i64 {
+            let ns = match n % 97 {
+                5 => 900_000_000,
+                17..20 => 0,
+                _ => 16_683_350 + n * n % 400_000 - 200_000,
+            };
+            assert_eq!(known.frame(ns), found.frame(ns), "{} frame {n}", card.id);
+            assert_eq!(known.drawn_moment(), found.drawn_moment(), "{} frame {n}", card.id);
+        }
+    }
+    // A constant can be set where the lines are a person's own.
+    let fixed = own_loop("mine", POLICIES[4].lines().unwrap()).unwrap();
+    let two = fixed.with_settings(&[("max_ticks".into(), 2.0)]).unwrap();
+    assert_eq!(Pacer::new(two, base()).frame(100_000_000).count, 2);
+}
+
+#[test]
 fn a_fault_in_a_loop_has_its_place() {
     for (text, at, what) in [
         ("owed = dtt", 7..10, "unknown name `dtt`"),
@@ -141,6 +167,8 @@ fn a_fault_in_a_loop_has_its_place() {
         ("past[0] = 1; tick 1", 0..4, "`past` is no array"),
         ("memory past[0] = 1; tick 1", 12..13, "an array has 1 to 1024 numbers"),
         ("tick a(1, 2)", 5..6, "unknown function `a`"),
+        ("takes whole cost\ntick 1", 5..16, "a loop takes no `whole cost`"),
+        ("second = 1; tick 1", 0..6, "`second` is told to the loop"),
     ] {
         let fault = own_loop("mine", text).expect_err(text);
         assert_eq!(fault.span, at, "{text}: {fault:?}");

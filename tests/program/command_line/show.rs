@@ -29,7 +29,7 @@ fn every_method_is_shown_in_every_language() {
 fn every_loop_is_shown_in_each_of_its_languages() {
     let languages =
         [("rust", "rust"), ("c", "c"), ("cpp", "c++"), ("csharp", "c#"), ("gdscript", "gdscript")];
-    for card in POLICIES {
+    for card in POLICIES.iter() {
         for (id, language) in languages {
             let arguments = format!("show {} --as {id}", card.id);
             match card.snippets.iter().find(|snippet| snippet.language == language) {

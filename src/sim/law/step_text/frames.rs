@@ -2,16 +2,21 @@
 //!
 //! Numbers are `f64`, and times are in milliseconds. A line `tick n of s` makes `n` ticks of `s` each, and `tick n`
 //! makes ticks of `H`. A line `show a` shows the part `a` of the way from the last tick but one to the last.
+//!
+//! With a line `takes whole dt` times are whole numbers of a unit, and so are `H`, `refresh` and `second`. The unit is
+//! as fine as a frame of tens of seconds allows. Sums, differences and whole multiples are then exact below
+//! 2⁵³. So is `floor(a / b)`: a quotient that is not whole is at least 1 / b away from a whole number, which is more
+//! than the division rounds. The number `owed` is then the time since the last tick.
 
 use std::ops::Range;
 
 use super::plain::plain;
-use super::reader::{COST, FIRST, LENGTH, NOW, REFRESH, Reader, SHOWN};
+use super::reader::{COST, FIRST, LENGTH, NOW, REFRESH, Reader, SECOND, SHOWN};
 use super::statements::{Statement, statements};
 use super::{Declares, Line, StepRegisters, StepText, TARGET};
 use crate::sim::law::fault::ExpressionFault;
 
-/// A frame as a loop sees it. Times are in milliseconds.
+/// A frame as a loop sees it. Times are in milliseconds, or whole numbers of a unit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FrameInput {
     /// Duration of the frame, `dt`.
@@ -20,6 +25,8 @@ pub struct FrameInput {
     pub tick: f64,
     /// Time between two refreshes of the display, `refresh`.
     pub refresh: f64,
+    /// A second, `second`.
+    pub second: f64,
     /// Cost of the last tick, `cost`.
     pub cost: f64,
     /// Time of the clock, `now`.
@@ -28,7 +35,7 @@ pub struct FrameInput {
     pub is_first: bool,
 }
 
-/// The decision of a loop on a frame. Times are in milliseconds.
+/// The decision of a loop on a frame. Times are in the unit of the input.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct FrameOutput {
     /// Number of ticks.
@@ -106,6 +113,16 @@ impl LoopText {
         self.shows
     }
 
+    /// Whether times are whole numbers of a unit, in place of milliseconds.
+    pub fn is_whole(&self) -> bool {
+        !self.text.inputs.is_empty()
+    }
+
+    /// Whether a line has the time between two refreshes of the display.
+    pub fn reads_refresh(&self) -> bool {
+        self.text.lines.iter().any(|line| line.mentions(REFRESH))
+    }
+
     /// Whether every tick has the length `H` or a constant one.
     pub fn has_fixed_tick(&self) -> bool {
         let lengths = self.text.lines.iter().filter_map(|line| match line {
@@ -127,12 +144,18 @@ impl LoopText {
         self.text.method_registers(1)
     }
 
+    /// Sets a constant whose value is a number, if the lines have it.
+    pub fn set_constant(&self, registers: &mut StepRegisters, name: &str, value: f64) {
+        self.text.set_number(registers, name, value);
+    }
+
     /// Runs the lines on a frame. Never allocates.
     pub fn frame(&self, registers: &mut StepRegisters, input: FrameInput) -> FrameOutput {
-        let FrameInput { dt, tick, refresh, cost, now, is_first } = input;
+        let FrameInput { dt, tick, refresh, second, cost, now, is_first } = input;
         for (slot, value) in [
             (TARGET, tick),
             (REFRESH, refresh),
+            (SECOND, second),
             (COST, cost),
             (NOW, now),
             (FIRST, f64::from(u8::from(is_first))),

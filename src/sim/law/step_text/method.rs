@@ -450,6 +450,19 @@ impl StepText {
         }
     }
 
+    /// Sets the constant of this name in the registers of one coordinate, if its value is a number.
+    pub(super) fn set_number(&self, registers: &mut StepRegisters, name: &str, value: f64) {
+        let slot = self.names.iter().position(|known| known == name);
+        let assigned = self.machine.acts.iter().find_map(|act| match act {
+            Act::Set { to, from } if Some(*to) == slot => Some(*from),
+            _ => None,
+        });
+        let number = self.machine.numbers.iter().find(|(number, _)| Some(*number) == assigned);
+        if let Some((number, _)) = number {
+            registers.slots[*number] = value;
+        }
+    }
+
     /// Sets the target of a coordinate.
     pub fn set_target(&self, registers: &mut StepRegisters, coordinate: usize, value: f64) {
         let size = registers.answer.len();

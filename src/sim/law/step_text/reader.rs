@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-pub(super) use frames::{COST, FIRST, FRAME_NAMES, LENGTH, NOW, REFRESH, SHOWN};
+pub(super) use frames::{COST, FIRST, FRAME_NAMES, LENGTH, NOW, REFRESH, SECOND, SHOWN};
 use functions::end_of;
 
 use super::method::{Array, Function as OwnFunction, Machine, Taken};
@@ -168,13 +168,20 @@ impl<'t> Reader<'t> {
         reader.starts = vec![0.0; BUILT_IN.len()];
         reader.values = vec![None; BUILT_IN.len()];
         reader.carried = vec![X, V];
-        for statement in all {
-            if let Statement::Takes(input) = statement {
-                reader.take(input.clone())?;
-            }
-        }
+        reader.read_inputs(all)?;
         reader.read_all(all)?;
         reader.finish()
+    }
+
+    fn read_inputs(&mut self, all: &[Statement]) -> Parsed<()> {
+        for statement in all {
+            match statement {
+                Statement::Takes(input) if self.is_loop => self.take_whole(input.clone())?,
+                Statement::Takes(input) => self.take(input.clone())?,
+                _ => {}
+            }
+        }
+        Ok(())
     }
 
     /// Reads the lines of a game loop.
@@ -186,6 +193,7 @@ impl<'t> Reader<'t> {
         }
         reader.values.fill(Some(0));
         reader.carried = vec![X, V];
+        reader.read_inputs(all)?;
         reader.read_all(all)?;
         reader.finish()
     }
@@ -450,7 +458,7 @@ impl<'t> Reader<'t> {
             let at = found.span.start + span.start..found.span.end + span.start;
             let is_call = self.text[at.end..].trim_start().starts_with('(');
             let known = match (self.is_loop, self.is_method()) {
-                (true, _) => "dt, H, refresh, cost, now or first",
+                (true, _) => "dt, H, second, refresh, cost, now or first",
                 (false, true) => "x, v or h",
                 (false, false) => "x, v, h or target",
             };

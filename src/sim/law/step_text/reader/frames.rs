@@ -6,13 +6,13 @@ use super::Reader;
 use crate::sim::law::expression::{Expression, Node, Scope as _};
 use crate::sim::law::fault::{Parsed, fault, quoted};
 use crate::sim::law::op::Op;
-use crate::sim::law::step_text::method::Array;
+use crate::sim::law::step_text::method::{Array, Taken};
 use crate::sim::law::step_text::statements::Statement;
-use crate::sim::law::step_text::{Line, TARGET, V, X};
+use crate::sim::law::step_text::{H, Line, TARGET, V, X};
 
 /// The names of every loop. The first four have the slots of a step: the ticks of the frame so far, their time, the
 /// duration of the frame, and the length of a tick. Those with a space are for `tick` and `show`.
-pub(in super::super) const FRAME_NAMES: [&str; 11] = [
+pub(in super::super) const FRAME_NAMES: [&str; 12] = [
     "ticks made",
     "time made",
     "dt",
@@ -21,6 +21,7 @@ pub(in super::super) const FRAME_NAMES: [&str; 11] = [
     "cost",
     "now",
     "first",
+    "second",
     "ticks added",
     "tick length",
     "part shown",
@@ -29,9 +30,10 @@ pub(in super::super) const REFRESH: usize = 4;
 pub(in super::super) const COST: usize = 5;
 pub(in super::super) const NOW: usize = 6;
 pub(in super::super) const FIRST: usize = 7;
-pub(in super::super) const COUNT: usize = 8;
-pub(in super::super) const LENGTH: usize = 9;
-pub(in super::super) const SHOWN: usize = 10;
+pub(in super::super) const SECOND: usize = 8;
+pub(in super::super) const COUNT: usize = 9;
+pub(in super::super) const LENGTH: usize = 10;
+pub(in super::super) const SHOWN: usize = 11;
 
 /// The most numbers of an array.
 const MAX_ARRAY: f64 = 1024.0;
@@ -52,6 +54,17 @@ impl Reader<'_> {
         }
         let what = format!("`{}` is for the lines of a game loop", &self.text[word.clone()]);
         fault(word.clone(), what, "name the file .loop, or assign `x` and `v`")
+    }
+
+    /// Reads the statement by which the times of a loop are whole numbers.
+    pub(super) fn take_whole(&mut self, span: Range<usize>) -> Parsed<()> {
+        let word = self.text[span.clone()].trim();
+        if word != "whole dt" {
+            let what = format!("a loop takes no `{}`", quoted(word));
+            return fault(span, what, "write `takes whole dt`, or remove it");
+        }
+        self.inputs.push(Taken { input: None, name: Some(H), is_whole: true, span });
+        Ok(())
     }
 
     /// Reads a statement that only a loop has.
