@@ -44,7 +44,7 @@ The word is
   unknown       none explains it; the answer is a damped swing, with its standard errors
 
 If nothing is given of the body, a simpler motion comes first: a rest, a steady speed, a constant
-acceleration, a chase, linear or quadratic drag, or a swing whose rest moves. It is named where a swing lowers the Bayesian information
+acceleration, a chase, linear or quadratic drag. It is named where a swing lowers the Bayesian information
 criterion by less than 10 and the rest looks like noise. If nothing explains the log, the answer says so.
 
 In JSON, also lists methods that do the same on this body, unusual lists rare ones that fit too, and held

@@ -128,7 +128,7 @@ pub fn identify(log: &Log, body: &LoggedBody, tick_hz: f64) -> Option<Identifica
         }
     }
     let swing = fitted_swing(log, body);
-    if let (true, Some(simple)) = (body.is_unknown(), simplest(log, body, swing.as_ref())) {
+    if let (true, Some(simple)) = (body.is_unknown(), simplest(log, swing.as_ref())) {
         return Some(Identification { simple: Some(simple), ..Identification::unknown(body) });
     }
     let refused = swing.as_ref().and_then(|swing| refusal(log, swing));

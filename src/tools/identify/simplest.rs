@@ -3,8 +3,8 @@
 //! A motion with more numbers is named only if it lowers the Bayesian information criterion by [`GAIN`], and if its
 //! residuals look like noise.
 
-use super::logged::{Log, LoggedBody};
-use super::swing::{FittedSwing, drifting_swing, lag};
+use super::logged::Log;
+use super::swing::{FittedSwing, lag};
 use crate::sim::number::significant;
 use crate::sim::{golden_section, least_squares};
 
@@ -45,15 +45,6 @@ pub enum SimpleMotion {
         /// The drag κ, in 1/m.
         per_m: f64,
     },
-    /// A damped swing whose rest moves at a steady speed.
-    DriftingSwing {
-        /// Frequency, in hertz.
-        hz: f64,
-        /// Damping ratio.
-        damping_ratio: f64,
-        /// Velocity of the rest, in m/s.
-        v: f64,
-    },
 }
 
 impl SimpleMotion {
@@ -80,12 +71,6 @@ impl SimpleMotion {
                     number(1.0 / per_m)
                 )
             }
-            Self::DriftingSwing { hz, damping_ratio, v } => format!(
-                "a swing of {} Hz and damping ratio {} about a rest that moves at {} m/s",
-                number(hz),
-                number(damping_ratio),
-                number(v)
-            ),
         }
     }
 }
@@ -133,7 +118,8 @@ const MODELS: [Model; 6] = [
     },
 ];
 /// The names of the models, for a log that none explains.
-const TRIED: &str = "a rest, a steady speed, a constant acceleration, a chase, linear and quadratic drag, a swing, a swing whose rest moves";
+const TRIED: &str =
+    "a rest, a steady speed, a constant acceleration, a chase, linear and quadratic drag, a swing";
 /// Fall of the information criterion that a further number needs, which chance gives once in 150 logs.
 const GAIN: f64 = 10.0;
 /// Residuals below this share of the largest coordinate count as rounding.
@@ -215,11 +201,7 @@ impl Model {
 }
 
 /// Returns the simplest motion that explains a log as well as a swing does; `None` if a swing, or nothing, explains it.
-pub(super) fn simplest(
-    log: &Log,
-    body: &LoggedBody,
-    swing: Option<&FittedSwing>,
-) -> Option<SimpleMotion> {
+pub(super) fn simplest(log: &Log, swing: Option<&FittedSwing>) -> Option<SimpleMotion> {
     let spread = spread(log);
     let is_known = |fit: &Fitted| {
         fit.rms <= SMALL * spread || fit.lag.abs() < NOISE_LAG && log.rows().len() >= MIN_ROWS
@@ -231,28 +213,8 @@ pub(super) fn simplest(
         }
     }
     let of_swing = swing.map_or(f64::INFINITY, |swing| criterion(log, swing.rms, 5));
-    let of_simple = best.as_ref().map_or(f64::INFINITY, |best| best.criterion);
-    // An engine's rounding moves the rest of a swing too.
-    let is_plain = swing.is_some_and(|swing| swing.rms <= SMALL_LEFT * spread);
-    if !is_plain
-        && let Some(fit) = drifting(log, body)
-        && fit.criterion < of_swing.min(of_simple) - GAIN
-        && is_known(&fit)
-        && fit.rms <= MOST_LEFT * spread
-    {
-        return Some(fit.motion);
-    }
     let best = best.filter(|best| is_known(best) && best.criterion <= of_swing + GAIN)?;
     Some(best.motion)
-}
-
-/// Fits a swing whose rest moves; `None` if the log shows less than a turn of it.
-fn drifting(log: &Log, body: &LoggedBody) -> Option<Fitted> {
-    let (swing, v) = drifting_swing(log, body)?;
-    let (hz, damping_ratio) = (swing.seen.frequency_hz()?, swing.seen.damping_ratio()?);
-    let motion = SimpleMotion::DriftingSwing { hz, damping_ratio, v };
-    let (criterion, rms, lag) = (criterion(log, swing.rms, 6), swing.rms, swing.lag);
-    (hz * log.rows().last()?.t_s >= 1.0).then_some(Fitted { motion, criterion, rms, lag })
 }
 
 /// Share of the spread that a swing may leave at most, and from which on its residuals must look like noise.
