@@ -38,9 +38,9 @@ pub trait System {
     }
 
     /// Returns a number that changes whenever the forces jump: at a new input, wind, stiffness. An integrator from
-    /// [`integrator()`](super::integrators::integrator()) that sees another number [resets](super::integrators::Integrator::reset)
-    /// itself, so that no method goes on with a memory of the old forces. A system that wraps another must forward this
-    /// function.
+    /// [`integrator()`](super::integrators::integrator()) that sees another number
+    /// [resets](super::integrators::Integrator::reset) itself, so that no method goes on with a memory of the old
+    /// forces. A system that wraps another must forward this function.
     #[inline]
     fn generation(&self) -> u64 {
         0

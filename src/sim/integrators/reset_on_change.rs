@@ -5,7 +5,8 @@ use super::integrator::{Integrator, Override};
 use crate::sim::state::{State, Vector};
 use crate::sim::system::{Coupling, StateOf, System};
 
-/// A method that [resets](Integrator::reset) if its state is not the one that it returned, or if the forces have jumped.
+/// A method that [resets](Integrator::reset) if its state is not the one that it returned, or if the forces have
+/// jumped.
 #[derive(Clone)]
 pub(super) struct ResetOnChange<I, V> {
     method: I,
