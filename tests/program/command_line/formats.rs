@@ -145,20 +145,17 @@ fn ffmpeg_reads_every_film_with_the_drawn_frames() {
 #[test]
 fn the_manuals_pipe_to_ffmpeg_makes_a_film() {
     let test = "the_manuals_pipe_to_ffmpeg_makes_a_film";
-    let line = chapter("commands")
-        .unwrap()
-        .text
-        .lines()
-        .find(|line| line.contains("| ffmpeg"))
-        .expect("the manual's line");
-    let (ours, theirs) = line.split_once(" | ").expect("a pipe");
+    let text = chapter("commands").unwrap().text.replace("\\\n", " ");
+    let (before, after) = text.split_once(" |\n  ffmpeg ").expect("a pipe");
+    let ours = before.lines().last().expect("our command");
+    let theirs = after.lines().next().expect("the encoder's");
     let folder = tempfile::tempdir().unwrap();
     let Some(_) = asked_or_skip(test, "ffmpeg", &[], Path::new("-version")) else { return };
     let smaller = "--frames 12 --size 160x90 --scale 0.5";
     let ours = ours.replace("--seconds 10", smaller).replace("regatta ", "");
     let stream = run_in(folder.path(), &ours);
     assert_eq!(stream.status.code(), Some(0), "{}", stderr(&stream));
-    let arguments: Vec<&str> = theirs.split(' ').skip(1).collect();
+    let arguments: Vec<&str> = theirs.split_whitespace().collect();
     let mut ffmpeg = Command::new("ffmpeg");
     ffmpeg.args(["-v", "error"]).args(arguments).current_dir(folder.path());
     let mut ffmpeg = ffmpeg.stdin(Stdio::piped()).spawn().unwrap();
