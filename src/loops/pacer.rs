@@ -9,7 +9,7 @@ use crate::run::race::Interpolation;
 /// A policy at work.
 #[derive(Clone)]
 enum Policy {
-    Lines(Lines),
+    Lines(Box<Lines>),
     Replay(Replay),
 }
 
@@ -43,7 +43,7 @@ impl Pacer {
     pub fn limited(card: &'static PolicyCard, base: TimeBase, limits: FrameLimits) -> Self {
         let policy = match card.build {
             Build::Replay(moments_ms) => Policy::Replay(Replay::new(moments_ms, base)),
-            Build::Lines(text) => Policy::Lines(Lines::new(text, base, limits)),
+            Build::Lines(text) => Policy::Lines(Box::new(Lines::new(text, base, limits))),
         };
         let longest = limits.max_frame_ms.map(|ms| base.nanoseconds(i64::from(ms) * 1_000_000));
         let FrameLimits { long_frame, excess, .. } = limits;
