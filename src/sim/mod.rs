@@ -43,7 +43,6 @@ mod vec_system;
 
 pub use body::{Body, Distances, Input, MAX_SWITCHES, NO_BOUNDARIES, Piece};
 pub use body_stepper::stepper;
-#[cfg(feature = "lab")]
 pub use clock::{Accumulator, Clock, Due, MAX_FRAME_MS, TickRateError};
 #[cfg(feature = "lab")]
 pub(crate) use fnv::Fnv;
