@@ -46,7 +46,7 @@ fn manifest() -> String {
     let mut tables = blocks("toml").filter(|table| table.contains("[dependencies]\nregatta = "));
     let printed = tables.next().expect("the manual prints the dependencies");
     let here = format!("path = {:?}", env!("CARGO_MANIFEST_DIR"));
-    let dependencies = printed.replace("version = \"0.1\"", &here);
+    let dependencies = printed.replace("path = \"../regatta\"", &here);
     assert_ne!(dependencies, printed, "the manual prints another version");
     format!(
         "[package]\nname = \"stranger\"\nversion = \"0.1.0\"\nedition = \"2024\"\n\n\
