@@ -44,6 +44,6 @@ fn main() -> Result<(), StepFailure> {
         println!("tick {tick}: the ball is drawn at {:.3} m, {:.3} m", drawn.x, drawn.y);
     }
     assert_eq!(tick, 8);
-    assert!(state.is_finite() && state.q.x > 0.3 && state.v.x < 4.9);
+    assert!(state.is_finite() && state.q.x > 0.3 && state.v.x < 4.95);
     Ok(())
 }
