@@ -238,7 +238,7 @@ pub(super) fn run(args: &LoopArgs) -> Result<(), Error> {
     let policies = args.policies()?;
     let limits = args.limits(&policies)?;
     // Ideal loops refuse a clock that is set back.
-    let signed = policies.iter().all(|card| card.is_lines());
+    let signed = policies.iter().all(|card| card.is_from_outside());
     let shown = args.shown.clone();
     let options = TableOptions { signed, shown, ..args.table.options() };
     let traces = traces(&args.traces, &options, args.display_hz, args.fps)?;
@@ -317,7 +317,7 @@ impl LoopArgs {
     /// ignores it.
     fn limits(&self, policies: &[&'static PolicyCard]) -> Result<FrameLimits, Error> {
         let asked = policies.iter().filter(|_| !self.policies.is_empty() || self.engine.is_some());
-        let lines = policies.iter().find(|card| card.is_lines());
+        let lines = policies.iter().find(|card| card.is_from_outside());
         let (is_cut, is_kept) = (self.max_frame_ms.is_some(), self.excess == Excess::Keep);
         let cut = [
             ("--max-ticks", self.max_ticks.is_some()),
@@ -389,7 +389,7 @@ impl LoopArgs {
             let known: Vec<&str> = policies
                 .iter()
                 .map(|card| card.constants)
-                .filter(|_| policies.iter().all(|card| card.is_lines()))
+                .filter(|_| policies.iter().all(|card| card.is_from_outside()))
                 .collect();
             return Err(Error::mistake(match &*known.join(", ") {
                 "" => format!(

@@ -163,7 +163,7 @@ fn snippet(card: &PolicyCard, language: CodeLanguage) -> Result<&'static str, Er
         }
     };
     let language = match language {
-        CodeLanguage::Of(Language::Rust) if card.is_lines() => CodeLanguage::Step,
+        CodeLanguage::Of(Language::Rust) if card.is_from_outside() => CodeLanguage::Step,
         language => language,
     };
     found(language).ok_or_else(|| {

@@ -1,7 +1,7 @@
 //! A loop that is lines, which run once a frame.
 
 use super::policy::{FrameLimits, Steps};
-use super::time_base::TimeBase;
+use super::time_base::{TimeBase, greatest_common_divisor};
 use crate::sim::law::{FrameInput, LoopText, StepRegisters};
 
 /// Time of the clock before the first frame, and so the length of a second in milliseconds.
@@ -142,7 +142,8 @@ impl Lines {
 fn unit(text: &LoopText, base: TimeBase) -> i128 {
     let refresh = if text.reads_refresh() { base.refresh() } else { 0 };
     let nanosecond = base.nanoseconds(1);
-    let common = common_divisor(common_divisor(nanosecond, base.tick()), refresh);
+    let of_ticks = greatest_common_divisor(nanosecond, base.tick());
+    let common = greatest_common_divisor(of_ticks, refresh);
     let mut unit = 1;
     while nanosecond / unit > MAX_UNITS {
         let rest = common / unit;
@@ -152,11 +153,4 @@ fn unit(text: &LoopText, base: TimeBase) -> i128 {
         }
     }
     unit
-}
-
-fn common_divisor(mut a: i128, mut b: i128) -> i128 {
-    while b > 0 {
-        (a, b) = (b, a % b);
-    }
-    a
 }

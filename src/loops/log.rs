@@ -116,13 +116,13 @@ impl ShownLog {
         let mut pacer = Pacer::new(card, base);
         let mut frames = trace.frames();
         let (mut before_ns, mut off) = (trace.lead_ns().map(|lead_ns| -lead_ns), Vec::new());
-        if trace.lead_ns().is_some() && card.is_lines() {
+        if trace.lead_ns().is_some() && card.is_from_outside() {
             pacer.frame_in_ms(0, 0.0);
         }
         for shown_ms in self.moments_ms {
             let Some(frame) = frames.next(0) else { break };
             let ms = frames.duration_ms(frame);
-            if before_ns.is_some() || card.is_lines() {
+            if before_ns.is_some() || card.is_from_outside() {
                 pacer.frame_in_ms(frame.began_ns - before_ns.unwrap_or(frame.began_ns), ms);
             }
             before_ns = Some(frame.began_ns);
@@ -132,7 +132,7 @@ impl ShownLog {
         let mean = off.iter().sum::<f64>() / count;
         let squares: f64 = off.iter().map(|off| (off - mean) * (off - mean)).sum();
         let hz = 1e3 / base.milliseconds(pacer.tick());
-        let own = (card.is_lines() && card.has_fixed_tick)
+        let own = (card.is_from_outside() && card.has_fixed_tick)
             .then(|| format!("{}", hz.round()).parse().ok());
         ((squares / count).sqrt(), own.flatten())
     }

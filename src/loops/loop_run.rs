@@ -68,7 +68,7 @@ impl LoopRun {
         let base = TimeBase::new(scene.tick_hz, trace.refresh());
         let lane = Lane::new(scene, spec.solver(), spec.substeps);
         let mut lane = PacedLane::new(Pacer::limited(card, base, limits), lane);
-        if trace.lead_ns().is_some() && card.is_lines() {
+        if trace.lead_ns().is_some() && card.is_from_outside() {
             lane.frame(0, 0.0, |_, _, _| {});
         }
         Self {
@@ -118,7 +118,7 @@ impl LoopRun {
         frame.began_ns += self.lead_ns;
         frame.displayed_ns = frame.displayed_ns.map(|ns| ns + self.lead_ns);
         let steps = match self.last {
-            None if !self.lane.pacer().card().is_lines() => Steps::default(),
+            None if !self.lane.pacer().card().is_from_outside() => Steps::default(),
             last => {
                 let script = &mut self.script;
                 let duration_ns = last.map_or(0, |(last, _)| frame.began_ns - last.began_ns);

@@ -103,7 +103,7 @@ impl Pacer {
     /// Decides on the steps of a frame like [`frame`](Self::frame). A loop of lines takes its duration in milliseconds,
     /// which may be negative.
     pub fn frame_in_ms(&mut self, duration_ns: i64, ms: f64) -> Steps {
-        if self.card.is_lines() || self.card.is_log() {
+        if self.card.is_from_outside() || self.card.is_log() {
             let duration = self.base.nanoseconds(duration_ns);
             let steps = self.decide(duration, ms);
             self.passed += duration;

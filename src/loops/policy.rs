@@ -142,7 +142,7 @@ impl PolicyCard {
     }
 
     /// Whether the loop is that of an engine or of a person, which may be given times below 0.
-    pub fn is_lines(&self) -> bool {
+    pub fn is_from_outside(&self) -> bool {
         self.engine.is_some()
     }
 

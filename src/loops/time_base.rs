@@ -79,12 +79,13 @@ impl FromStr for RefreshRate {
             return Err(format!("give a refresh rate from {least} to {most} Hz, such as 59.94"));
         };
         let millionths = (hz * f64::from(MILLION)).round() as u32;
-        let common = greatest_common_divisor(millionths, MILLION);
+        let common = greatest_common_divisor(millionths.into(), MILLION.into()) as u32;
         Ok(Self::new(millionths / common, MILLION / common))
     }
 }
 
-fn greatest_common_divisor(mut a: u32, mut b: u32) -> u32 {
+/// Returns the greatest common divisor of two numbers that are not negative.
+pub(super) fn greatest_common_divisor(mut a: i128, mut b: i128) -> i128 {
     while b > 0 {
         (a, b) = (b, a % b);
     }
