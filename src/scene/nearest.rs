@@ -1,5 +1,6 @@
 //! Finds the known name that a misspelt one probably means.
 
+use crate::sim::integrators::plain;
 use crate::sim::law::Remedy;
 
 /// Smallest Jaro-Winkler similarity, from 0 to 1, at which a known name is offered for a misspelt one. The tests below
@@ -19,7 +20,6 @@ pub fn nearest<'n>(
     if written.chars().nth(MAX_CHARS).is_some() {
         return None;
     }
-    let plain = |word: &str| word.trim().to_lowercase().replace(['_', ' '], "-");
     let written = plain(written);
     let names: Vec<_> = names.map(|(spelling, name)| (plain(spelling), name)).collect();
 

@@ -6,8 +6,6 @@
 //! needs no place in the table. To add a method to the table, copy `midpoint.rs`, declare the copy, and name it in
 //! `methods!`.
 
-use std::fmt;
-
 use super::state::Vector;
 use super::system::{BodyClass, Counted, Coupling, System};
 use custom_method::{CustomMethod, Unfit};
@@ -69,6 +67,7 @@ mod semi_implicit_euler;
 mod semi_implicit_euler_implicit_drag;
 mod shared;
 mod smooth_damp;
+mod spelling;
 mod ssp_rk3;
 #[cfg(feature = "lab")]
 mod step_method;
@@ -92,6 +91,9 @@ pub use free_spin::{FreeSpin, SpinMap};
 pub use integrator::{CloneIntegrator, Integrator, Override, Tolerance};
 pub use joint_mode::{JointMode, JointQuantity, Setting, in_code};
 pub use shared::embedded_pair::{EmbeddedPair, Pair};
+#[cfg(feature = "lab")]
+pub(crate) use spelling::plain;
+pub use spelling::{UnknownMethod, method_or_nearest};
 
 /// A system of erased type with coordinates of type `V`, so that methods are compiled only once for all such systems.
 /// It counts evaluations.
@@ -333,48 +335,6 @@ fn id_in<T: PartialEq>(all: &[(&'static str, T)], value: T) -> &'static str {
 /// Returns the method with this id.
 pub fn method(id: &str) -> Option<&'static Method> {
     METHODS.iter().find(|method| method.id == id)
-}
-
-/// The error about a word that names no method.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct UnknownMethod {
-    /// The word.
-    pub word: String,
-    /// The ids of the methods that have the word in a spelling.
-    pub near: Vec<&'static str>,
-}
-
-impl fmt::Display for UnknownMethod {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "no method is called {:?}; ", self.word)?;
-        match &*self.near {
-            [] => write!(f, "METHODS lists all"),
-            near => write!(f, "did you mean {}?", near.join(" or ")),
-        }
-    }
-}
-
-impl std::error::Error for UnknownMethod {}
-
-/// Returns the method with this [spelling](Method::spellings), from a file or a person. Case, `_` and blanks do not
-/// matter.
-///
-/// # Errors
-/// If no method has the spelling. The error names the methods that are near.
-pub fn method_or_nearest(word: &str) -> Result<&'static Method, UnknownMethod> {
-    let plain = |word: &str| word.trim().to_lowercase().replace(['_', ' '], "-");
-    let written = plain(word);
-    let is_near = |method: &&'static Method, is_near: fn(&str, &str) -> bool| {
-        method.spellings().any(|(spelling, _)| is_near(&plain(spelling), &written))
-    };
-    let found =
-        METHODS.iter().find(|method| is_near(method, |spelling, written| spelling == written));
-    found.ok_or_else(|| {
-        let near = METHODS.iter().filter(|method| {
-            !written.is_empty() && is_near(method, |spelling, written| spelling.contains(written))
-        });
-        UnknownMethod { word: word.to_owned(), near: near.map(|method| method.id).collect() }
-    })
 }
 
 /// Returns a new integrator of `method` for any system with coordinates shaped `like` these. It
