@@ -62,14 +62,13 @@ enum FileContent {
 }
 
 impl RequestedFile {
+    fn of(path: PathBuf) -> Self {
+        Self { path, is_typed: false, has_changed: false, compared: None }
+    }
+
     /// The dropped file at `path`.
     pub(super) fn dropped(studio: &Studio, path: &Path) -> Self {
-        Self {
-            path: listed_path(studio, path),
-            is_typed: false,
-            has_changed: false,
-            compared: None,
-        }
+        Self::of(listed_path(studio, path))
     }
 
     /// The typed file, as the command line reads it. The name of a built-in scene opens that scene at once and
@@ -78,29 +77,18 @@ impl RequestedFile {
         let typed = studio.viewer.typed_path().trim().to_owned();
         if studio.viewer.compares_typed_path() {
             let compared = Some(studio.deck.recorded().into());
-            return Some(Self {
-                path: from_home(&typed),
-                is_typed: true,
-                has_changed: false,
-                compared,
-            });
+            return Some(Self { is_typed: true, compared, ..Self::of(from_home(&typed)) });
         }
         if let Some(index) = SCENES.iter().position(|scene| scene.name == typed) {
             studio.apply(StageCommand::Scene(index));
             return None;
         }
-        Some(Self {
-            path: listed_path(studio, &from_home(&typed)),
-            is_typed: true,
-            has_changed: false,
-            compared: None,
-        })
+        Some(Self { is_typed: true, ..Self::of(listed_path(studio, &from_home(&typed))) })
     }
 
     /// The file of a loop that has changed; `None` for another file.
     pub(super) fn changed_loop(path: &Path) -> Option<Self> {
-        let path = has_ending(path, "loop").then(|| path.to_owned())?;
-        Some(Self { path, is_typed: false, has_changed: true, compared: None })
+        has_ending(path, "loop").then(|| Self { has_changed: true, ..Self::of(path.to_owned()) })
     }
 
     /// Whether the path is a link to a run instead of a file.
