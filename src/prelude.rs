@@ -24,7 +24,7 @@ pub use crate::sim::{
 #[cfg(feature = "window")]
 pub use crate::window::Window;
 
-/// What a loop needs, beside the prelude of an engine that has a `System` and a `State` of its own, such as Bevy's.
+/// The names of a loop, beside the prelude of an engine that has a `System` and a `State` of its own, such as Bevy's.
 pub mod beside {
     pub use crate::sim::integrators::{Integrator, StepFailure, integrator, method};
     pub use crate::sim::{Clock, Due, State as MotionState, System as MotionSystem};

@@ -289,7 +289,7 @@ impl<V: Vector> State<V> {
         self.numbers().all(|number| number.is_finite())
     }
 
-    /// Returns the state at `part`, from 0 to 1, of the straight way to `next`: what is drawn between two ticks. Angles
+    /// Returns the state at `part`, from 0 to 1, of the straight way to `next`, to draw between two ticks. Angles
     /// are not turned the shorter way.
     pub fn lerp(&self, next: &Self, part: f64) -> Self {
         let mut between = self.clone();

@@ -232,7 +232,7 @@ fn a_saved_clock_goes_on_with_the_same_ticks() {
     }
 }
 
-/// What a loop needs beside the prelude of an engine, which has these two names too.
+/// A loop beside the prelude of an engine, which has two names of ours too.
 mod beside_an_engine {
     mod engine {
         pub(super) struct State;

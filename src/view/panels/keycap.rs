@@ -1,4 +1,4 @@
-//! Keys drawn as boxes, and sentences with keys between backticks. A click on a key does what the key does.
+//! Keys drawn as boxes, and sentences with keys between backticks, which are buttons.
 
 use egui::{Align2, Color32, FontId, Painter, Rect, Response, Sense, Stroke, Ui, pos2, vec2};
 

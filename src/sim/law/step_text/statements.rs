@@ -427,7 +427,7 @@ impl Reader<'_> {
     }
 }
 
-/// How to write what is one part of a value.
+/// The remedy for a part of a value, such as `pos.x`.
 const ONE_NUMBER: &str =
     "a step moves one number: write `x` for its position and `v` for its velocity";
 
