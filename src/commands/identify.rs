@@ -45,7 +45,8 @@ The word is
 
 If nothing is given of the body, a simpler motion comes first: a rest, a steady speed, a constant
 acceleration, a chase, linear or quadratic drag. It is named where a swing lowers the Bayesian information
-criterion by less than 10 and the rest looks like noise. If nothing explains the log, the answer says so.
+criterion by less than 10 and the rest looks like noise. If nothing explains the log, a swing whose rest moves
+is tried, and then the answer says so.
 
 In JSON, also lists methods that do the same on this body, unusual lists rare ones that fit too, and held
 says that the game applies the spring's force itself.

@@ -24,7 +24,7 @@ use fit::{Fit, Start, fit};
 pub use logged::{Log, LogError, LogRow, LogSetting, LoggedBody};
 pub(crate) use motion::{SLOW, run};
 pub use simplest::SimpleMotion;
-use simplest::{refusal, simplest};
+use simplest::{drifting, refusal, simplest};
 pub use swing::FittedSwing;
 use swing::fitted_swing;
 
@@ -137,9 +137,7 @@ pub fn identify(log: &Log, body: &LoggedBody, tick_hz: f64) -> Option<Identifica
         swing.filter(|swing| swing.residual <= NO_SWING && refused.is_none() || !body.is_unknown());
     let of_swing = || match swing {
         Some(swing) => Some(Identification::of_swing(swing, body, tick_hz)),
-        None => unexplained
-            .clone()
-            .map(|why| Identification { unexplained: Some(why), ..Identification::unknown(body) }),
+        None => last_resort(log, body, None, unexplained.clone()),
     };
     if log.is_uneven() {
         return of_swing();
@@ -161,11 +159,25 @@ pub fn identify(log: &Log, body: &LoggedBody, tick_hz: f64) -> Option<Identifica
     }
     match found {
         Some(found) if found.conclusion == Conclusion::Unknown && swing.is_none() => {
-            Some(Identification { unexplained, ..found })
+            last_resort(log, body, Some(found), unexplained)
         }
         Some(found) => Some(found),
         None => of_swing(),
     }
+}
+
+/// Names a swing whose rest moves, for a log that no method and no simpler motion explains; else says why none does.
+fn last_resort(
+    log: &Log,
+    body: &LoggedBody,
+    found: Option<Identification>,
+    unexplained: Option<String>,
+) -> Option<Identification> {
+    if let (true, Some(simple)) = (body.is_unknown(), drifting(log, body)) {
+        return Some(Identification { simple: Some(simple), ..Identification::unknown(body) });
+    }
+    let found = found.or_else(|| unexplained.is_some().then(|| Identification::unknown(body)))?;
+    Some(Identification { unexplained, ..found })
 }
 
 /// Identifies the method with the body as given. The fit of an unknown rest starts at `first_rest`.

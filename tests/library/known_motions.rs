@@ -112,7 +112,7 @@ const KINDS: [Kind; 12] = [
             let (at, v) = (swing(dice, 0.15), dice.between(0.2, 1.0));
             noisy(dice, times, |t| at(t) + v * t)
         },
-        is_right: None,
+        is_right: Some(|it| matches!(it, SimpleMotion::DriftingSwing { .. })),
         is_swing: false,
     },
     Kind {

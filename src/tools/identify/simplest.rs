@@ -3,8 +3,8 @@
 //! A motion with more numbers is named only if it lowers the Bayesian information criterion by [`GAIN`], and if its
 //! residuals look like noise.
 
-use super::logged::Log;
-use super::swing::{FittedSwing, lag};
+use super::logged::{Log, LoggedBody};
+use super::swing::{FittedSwing, drifting_swing, lag};
 use crate::sim::number::significant;
 use crate::sim::{golden_section, least_squares};
 
@@ -45,6 +45,15 @@ pub enum SimpleMotion {
         /// The drag κ, in 1/m.
         per_m: f64,
     },
+    /// A damped swing whose rest moves at a steady speed.
+    DriftingSwing {
+        /// Frequency, in hertz.
+        hz: f64,
+        /// Damping ratio.
+        damping_ratio: f64,
+        /// Velocity of the rest, in m/s.
+        v: f64,
+    },
 }
 
 impl SimpleMotion {
@@ -71,6 +80,12 @@ impl SimpleMotion {
                     number(1.0 / per_m)
                 )
             }
+            Self::DriftingSwing { hz, damping_ratio, v } => format!(
+                "a swing of {} Hz and damping ratio {} about a rest that moves at {} m/s",
+                number(hz),
+                number(damping_ratio),
+                number(v)
+            ),
         }
     }
 }
@@ -118,8 +133,7 @@ const MODELS: [Model; 6] = [
     },
 ];
 /// The names of the models, for a log that none explains.
-const TRIED: &str =
-    "a rest, a steady speed, a constant acceleration, a chase, linear and quadratic drag, a swing";
+const TRIED: &str = "a rest, a steady speed, a constant acceleration, a chase, linear and quadratic drag, a swing, a swing about a moving rest";
 /// Fall of the information criterion that a further number needs, which chance gives once in 150 logs.
 const GAIN: f64 = 10.0;
 /// Residuals below this share of the largest coordinate count as rounding.
@@ -152,6 +166,14 @@ struct Fitted {
     criterion: f64,
     rms: f64,
     lag: f64,
+}
+
+impl Fitted {
+    /// Returns whether the fit leaves rounding, or noise in a log that is long enough to tell.
+    fn is_known(&self, log: &Log) -> bool {
+        let is_noise = self.lag.abs() < NOISE_LAG && log.rows().len() >= MIN_ROWS;
+        self.rms <= SMALL * spread(log) || is_noise
+    }
 }
 
 impl Model {
@@ -202,19 +224,32 @@ impl Model {
 
 /// Returns the simplest motion that explains a log as well as a swing does; `None` if a swing, or nothing, explains it.
 pub(super) fn simplest(log: &Log, swing: Option<&FittedSwing>) -> Option<SimpleMotion> {
-    let spread = spread(log);
-    let is_known = |fit: &Fitted| {
-        fit.rms <= SMALL * spread || fit.lag.abs() < NOISE_LAG && log.rows().len() >= MIN_ROWS
-    };
+    let best = simplest_of_models(log)?;
+    let of_swing = swing.map_or(f64::INFINITY, |swing| criterion(log, swing.rms, 5));
+    (best.is_known(log) && best.criterion <= of_swing + GAIN).then_some(best.motion)
+}
+
+fn simplest_of_models(log: &Log) -> Option<Fitted> {
     let mut best: Option<Fitted> = None;
     for fit in MODELS.iter().filter_map(|model| model.fit(log)) {
         if best.as_ref().is_none_or(|best| fit.criterion < best.criterion - GAIN) {
             best = Some(fit);
         }
     }
-    let of_swing = swing.map_or(f64::INFINITY, |swing| criterion(log, swing.rms, 5));
-    let best = best.filter(|best| is_known(best) && best.criterion <= of_swing + GAIN)?;
-    Some(best.motion)
+    best
+}
+
+/// Returns a swing whose rest moves at a steady speed, if the log shows a turn of it and nothing simpler explains as much.
+pub(super) fn drifting(log: &Log, body: &LoggedBody) -> Option<SimpleMotion> {
+    let (swing, v) = drifting_swing(log, body)?;
+    let (hz, damping_ratio) = (swing.seen.frequency_hz()?, swing.seen.damping_ratio()?);
+    let motion = SimpleMotion::DriftingSwing { hz, damping_ratio, v };
+    let (criterion, rms, lag) = (criterion(log, swing.rms, 6), swing.rms, swing.lag);
+    let fit = Fitted { motion, criterion, rms, lag };
+    let is_simplest =
+        simplest_of_models(log).is_none_or(|simple| fit.criterion < simple.criterion - GAIN);
+    let is_seen = hz * log.rows().last()?.t_s >= 1.0 && rms <= MOST_LEFT * spread(log);
+    (is_simplest && is_seen && fit.is_known(log)).then_some(fit.motion)
 }
 
 /// Share of the spread that a swing may leave at most, and from which on its residuals must look like noise.

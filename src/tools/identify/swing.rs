@@ -32,8 +32,9 @@ pub struct FittedSwing {
     pub(super) lag: f64,
 }
 
-/// Stiffness and damping per unit of mass, the rest, and the coordinate and velocity of the first row.
-type Parameters = [f64; 5];
+/// Stiffness and damping per unit of mass, the rest, the coordinate and velocity of the first row, and the velocity of the
+/// rest.
+type Parameters = [f64; 6];
 
 /// Returns the distance from the rest `t` seconds after the start `[x, v]`, by the closed form of x″ = -k x - c x′.
 fn displacement_at([k, c]: [f64; 2], [x, v]: [f64; 2], t: f64) -> f64 {
@@ -53,13 +54,13 @@ fn displacement_at([k, c]: [f64; 2], [x, v]: [f64; 2], t: f64) -> f64 {
 }
 
 /// Returns the coordinates at the times of the log.
-fn sample_swing(log: &Log, [k, c, rest, x, v]: Parameters) -> Vec<f64> {
-    let at = |t: f64| rest + displacement_at([k, c], [x - rest, v], t);
+fn sample_swing(log: &Log, [k, c, rest, x, v, drift]: Parameters) -> Vec<f64> {
+    let at = |t: f64| rest + drift * t + displacement_at([k, c], [x - rest, v - drift], t);
     log.rows().iter().map(|row| at(row.t_s)).collect()
 }
 
 /// Makes a first guess from the equation of motion, integrated twice. Derivatives of x would amplify its noise.
-fn guess(log: &Log) -> Option<Parameters> {
+fn guess(log: &Log, drifts: bool) -> Option<Parameters> {
     let rows = log.rows();
     let (mut once, mut twice) = (vec![0.0], vec![0.0]);
     for pair in rows.windows(2) {
@@ -72,40 +73,51 @@ fn guess(log: &Log) -> Option<Parameters> {
         once.push(next);
     }
     let times = || rows.iter().map(|row| row.t_s);
-    // x = x₀ + (v₀ + c x₀) t - c ∫x - k ∬x + k rest t² / 2.
-    let columns = [
+    // x = x₀ + (v₀ + c x₀) t - c ∫x - k ∬x + (k rest + c drift) t² / 2 + k drift t³ / 6.
+    let mut columns = vec![
         vec![1.0; rows.len()],
         times().collect(),
         once.iter().map(|x| -x).collect(),
         twice.iter().map(|x| -x).collect(),
         times().map(|t| t * t / 2.0).collect(),
     ];
+    columns.extend(drifts.then(|| times().map(|t| t * t * t / 6.0).collect()));
     let x: Vec<f64> = rows.iter().map(|row| row.x).collect();
     let found = least_squares(&columns, &x)?;
     let [x, slope, c, k, pull] = [found[0], found[1], found[2], found[3], found[4]];
-    (k > 0.0).then(|| [k, c, pull / k, x, slope - c * x])
+    let drift = found.get(5).map_or(0.0, |pull| pull / k);
+    (k > 0.0).then(|| [k, c, (pull - c * drift) / k, x, slope - c * x, drift])
 }
 
 /// Returns the damped swing nearest to a log; `None` if the body has no spring, no swing fits, or the log is too short.
 pub(super) fn fitted_swing(log: &Log, body: &LoggedBody) -> Option<FittedSwing> {
-    if !body.has_spring() || log.rows().len() < 5 + SPARE_ROWS {
+    fit(log, body, false).map(|(swing, _)| swing)
+}
+
+/// Returns the damped swing nearest to a log, whose rest has a steady velocity, and that velocity in m/s.
+pub(super) fn drifting_swing(log: &Log, body: &LoggedBody) -> Option<(FittedSwing, f64)> {
+    fit(log, body, true)
+}
+
+fn fit(log: &Log, body: &LoggedBody, drifts: bool) -> Option<(FittedSwing, f64)> {
+    if !body.has_spring() || log.rows().len() < 5 + usize::from(drifts) + SPARE_ROWS {
         return None;
     }
-    let mut now = guess(log)?;
+    let mut now = guess(log, drifts)?;
     let x: Vec<f64> = log.rows().iter().map(|row| row.x).collect();
     let residual = |run: &[f64]| -> Vec<f64> { x.iter().zip(run).map(|(x, y)| x - y).collect() };
     let squares = |residual: &[f64]| residual.iter().map(|r| r * r).sum::<f64>();
     let size = x.iter().map(|x| (x - now[2]).abs()).fold(0.0, f64::max);
     // A known rest or velocity is not fitted.
-    let is_free = [true, true, body.rest.is_none(), true, body.v0.is_none()];
+    let is_free = [true, true, body.rest.is_none(), true, body.v0.is_none(), drifts];
     now[2] = body.rest.unwrap_or(now[2]);
     now[4] = body.v0.unwrap_or(now[4]);
     let unit = |now: &Parameters| {
         let root = now[0].abs().sqrt();
-        [now[0], root, size, size, size * root]
+        [now[0], root, size, size, size * root, size * root]
     };
     let slopes = |now: &Parameters, base: &[f64]| -> Vec<Vec<f64>> {
-        let free = (0..5).filter(|i| is_free[*i]);
+        let free = (0..6).filter(|i| is_free[*i]);
         let column = |i: usize| {
             let mut there = *now;
             there[i] += DISPLACEMENT * unit(now)[i];
@@ -123,7 +135,7 @@ pub(super) fn fitted_swing(log: &Log, body: &LoggedBody) -> Option<FittedSwing> 
         let nearer = (0..=HALVINGS).find_map(|halving| {
             let part = libm::scalbn(1.0, -halving);
             let mut there = now;
-            let free = (0..5).filter(|i| is_free[*i]);
+            let free = (0..6).filter(|i| is_free[*i]);
             free.zip(&change).for_each(|(i, change)| there[i] += part * change * units[i]);
             let is_nearer =
                 there[0] > 0.0 && squares(&residual(&sample_swing(log, there))) < before;
@@ -155,7 +167,7 @@ pub(super) fn fitted_swing(log: &Log, body: &LoggedBody) -> Option<FittedSwing> 
         lag: lag(&off),
     };
     let numbers = [omega, c, rest, found.residual, omega_error, ratio_error];
-    numbers.iter().all(|number| number.is_finite()).then_some(found)
+    numbers.iter().all(|number| number.is_finite()).then_some((found, now[5]))
 }
 
 /// Returns the correlation of successive residuals.
