@@ -214,9 +214,8 @@ impl Judge {
         let swing = truth.swing.as_ref();
         // Peaks lie between ticks, so that only an excess is certain.
         let too_wide = swing.map(|swing| run.widest / swing.widest()).filter(|&width| width > 1.0);
-        // A time shift that explains less than half of the error is not the cause of the error.
         let is_of_phase =
-            |early_s: f64| swing.is_some_and(|swing| swing.error_when(early_s) >= run.error / 2.0);
+            |early_s: f64| swing.is_some_and(|swing| swing.is_cause_of(early_s, run.error));
         let truth_error = truth.gap(run.seconds, tick_hz).await;
         let not_judged = self.not_judged(tick_hz, run.is_cut_short());
         let finding = if let Some(failure) = run.failure.clone() {

@@ -6,7 +6,7 @@
 use super::amplitude::Trend;
 use super::criterion::{FREQUENCY_TOLERANCE, TOLERANCE, VISIBLE};
 use super::judge::Judge;
-use super::truth::{BodyTruth, Swing, ticks};
+use super::truth::{BodyTruth, ticks};
 use super::verdict::{Comparison, Finding, SwingWidths, Verdict};
 use crate::sim::TickRate;
 
@@ -47,7 +47,7 @@ async fn beside(found: Comparison, [own, truth]: [&BodyTruth; 2], tick_hz: TickR
     let frequency_error = swings
         .and_then(|(own, truth)| truth.frequency_error(&own.crossings))
         .map(|error| (1.0 + error) * (1.0 + own_frequency) - 1.0);
-    let shift = swings.map_or(0.0, |(own, truth)| own.lead_s(truth));
+    let shift = swings.map_or(0.0, |(own, truth)| -truth.lead_s(&own.crossings, 0.0));
     // Exact motions in two wells can share a width and a frequency. No shift between them explains their distance.
     let is_of_phase = swings.is_none_or(|(_, truth_swing)| {
         let drift = frequency_error.unwrap_or(0.0) * truth.horizon_s;
@@ -76,8 +76,10 @@ async fn beside(found: Comparison, [own, truth]: [&BodyTruth; 2], tick_hz: TickR
                 unit: truth.coordinates().at(swing.coordinate).shown_unit(),
             },
         ),
-        early_s: Some(found.early_s.unwrap_or(0.0) + shift)
-            .filter(|_| is_shifted && is_of_phase && swings.is_some()),
+        early_s: swings.filter(|_| is_shifted && is_of_phase).and_then(|(_, truth_swing)| {
+            let early_s = found.early_s.unwrap_or(0.0) + shift;
+            truth_swing.is_cause_of(early_s, error).then_some(early_s)
+        }),
         frequency_error: frequency_error.or(found.frequency_error),
         ..found
     }
@@ -87,14 +89,6 @@ async fn beside(found: Comparison, [own, truth]: [&BodyTruth; 2], tick_hz: TickR
 fn width_of(truth: &BodyTruth) -> Option<f64> {
     let swing = truth.swing.as_ref()?;
     Some(swing.widest() * truth.amplitudes[swing.coordinate]).filter(|&width| width > 0.0)
-}
-
-impl Swing {
-    /// Returns the seconds by which this swing is ahead of `other`, in 0 ± half a period.
-    fn lead_s(&self, other: &Self) -> f64 {
-        let period = other.period();
-        libm::remainder(other.crossings[0] - self.crossings[0], period)
-    }
 }
 
 /// The distance between two exact motions at the ticks of a rate, in amplitudes of the second.

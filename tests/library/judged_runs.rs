@@ -1,6 +1,6 @@
 //! Verdicts are of the run on the stage: of the scene as it is edited, and from the last change on.
 
-use regatta::measure::Judge;
+use regatta::measure::{Judge, VISIBLE};
 use regatta::scene::{Action, Scene, Scripted};
 use regatta::studio::{RunCommand, StageCommand, Step, Studio};
 
@@ -202,4 +202,31 @@ fn a_run_judged_from_a_placement_keeps_throttle_and_remaining_script() {
     studio.apply(RunCommand::Act(Action::Throttle(0.8)));
     let by_hand = with(scripted(&[(0.0, 0.8)]), &[("s0_m", 10.0), ("v0_m_per_s", 3.0)]);
     assert_eq!(verdicts(&mut studio), verdicts_on(&by_hand));
+}
+
+#[test]
+fn a_pulled_body_that_is_far_off_for_no_shift_in_time_does_not_look_right() {
+    let mut scene = Scene::built_in("quarter-car").unwrap();
+    for hz in [100, 200] {
+        scene.tick_hz = hz.into();
+        let mut studio = Studio::new(scene.clone());
+        (0..244).for_each(|_| studio.tick());
+        for left in (1..=60).rev() {
+            let by = [0.02 * f64::from(left) / 60.0, 0.0].into();
+            studio.apply(RunCommand::Act(Action::Push { body: 0, by }));
+            studio.tick();
+        }
+        studio.analyse();
+        let mut far = 0;
+        for entry in 0..studio.entries().len() {
+            let Some(verdict) = studio.viewer.verdict(entry) else { continue };
+            let Some(found) = verdict.comparison() else { continue };
+            let is_far = found.early_s.is_none() && found.error > 2.0 * VISIBLE;
+            far += usize::from(is_far);
+            assert!(!is_far || found.looks_right == Some(false), "{hz} Hz: {verdict}");
+            let is_early = verdict.to_string().contains(" after 5 s");
+            assert!(!is_early || found.error < 0.1, "{hz} Hz: {verdict}");
+        }
+        assert!((2..=4).contains(&far), "{hz} Hz: {far}");
+    }
 }

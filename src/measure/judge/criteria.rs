@@ -281,7 +281,12 @@ impl Judge {
             (Some(modes), None) => modes.are_as_wide(truth.horizon_s).unwrap_or(is_near),
             (None, None) => is_near,
         };
-        Ok(is_as_wide && error.abs() <= FREQUENCY_TOLERANCE)
+        // An error that no shift in time explains is one of the shape.
+        let is_of_shape = crossings.is_some_and(|crossings| {
+            let shift = swing.lead_s(crossings, run.error_at_s);
+            run.error > 2.0 * (swing.error_when(shift) + VISIBLE)
+        });
+        Ok(is_as_wide && error.abs() <= FREQUENCY_TOLERANCE && !is_of_shape)
     }
 }
 

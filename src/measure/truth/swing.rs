@@ -53,10 +53,26 @@ impl Swing {
         ratios.max_by(|a, b| libm::log(*a).abs().total_cmp(&libm::log(*b).abs()))
     }
 
+    /// Returns the seconds by which this swing is ahead of one that crosses its centre upwards at these times (s), where
+    /// both cross nearest to `t` and within half a period.
+    pub(in crate::measure) fn lead_s(&self, crossings: &[f64], t: f64) -> f64 {
+        let nearest = |crossings: &[f64], t: f64| {
+            let apart = |a: &f64, b: &f64| (a - t).abs().total_cmp(&(b - t).abs());
+            crossings.iter().copied().min_by(apart).unwrap_or(t)
+        };
+        let own = nearest(&self.crossings, t);
+        libm::remainder(nearest(crossings, own) - own, self.period())
+    }
+
     /// Returns the largest error, in amplitudes, of a harmonic motion that is this many seconds early or late.
     pub(in crate::measure) fn error_when(&self, early_s: f64) -> f64 {
         let half_turns = (early_s.abs() / self.period()).min(0.5);
         2.0 * libm::sin(std::f64::consts::PI * half_turns)
+    }
+
+    /// Whether a shift by this many seconds explains at least half of an error in amplitudes.
+    pub(in crate::measure) fn is_cause_of(&self, early_s: f64, error: f64) -> bool {
+        self.error_when(early_s) >= error / 2.0
     }
 
     /// Whether the half turns of a lane, from index `first` on, are as wide as the true ones within [`VISIBLE`] of the
