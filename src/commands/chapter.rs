@@ -8,12 +8,15 @@ use std::path::PathBuf;
 use std::sync::atomic::Ordering;
 
 use clap::Args;
+use serde::Serialize;
+use serde_json::json;
 
 use super::argument::brief;
 use super::error::Error;
 use super::help::flowing;
 use super::interrupt::watch_for_interrupt;
-use super::output::print;
+use super::output::table::TableFormat;
+use super::output::{print, print_json};
 use super::terminal::{print_status, report_left_alone};
 use crate::run::{Lane, Ticker};
 use crate::scene::Scene;
@@ -50,6 +53,10 @@ pub(super) struct ChapterArgs {
     /// Replace the figures that DIR holds; other files in it stay
     #[arg(long, requires = "out")]
     force: bool,
+
+    /// The format: text or json
+    #[arg(long, value_name = "FORMAT", default_value = "text", hide_possible_values = true)]
+    format: TableFormat,
 }
 
 pub(super) fn run(args: &ChapterArgs) -> Result<(), Error> {
@@ -63,8 +70,22 @@ pub(super) fn run(args: &ChapterArgs) -> Result<(), Error> {
         }
         draw(folder)?;
     }
-    let text = [speeds::table_7_1(), speeds::displacements(), adaptive::listings()].join("\n");
-    print(text)
+    let (table, displacements, listings) =
+        (speeds::table_7_1(), speeds::displacements(), adaptive::listings());
+    match args.format {
+        TableFormat::Text => {
+            print([table.text(), displacements.text(), listings.text()].join("\n"))
+        }
+        TableFormat::Json => {
+            let all = json!({
+                "table_7_1": table.rows,
+                "mean_errors": table.means,
+                "distances": displacements.rows,
+                "adaptive_euler": listings.rows,
+            });
+            print_json(format!("{all:#}\n"))
+        }
+    }
 }
 
 /// Size of a figure in pixels, and pixels per point. The text is legible at the width of a page.
@@ -93,6 +114,27 @@ fn draw(mut folder: FigureFolder) -> Result<(), Error> {
     ));
     report_left_alone(folder.path(), folder.others());
     Ok(())
+}
+
+/// A number as this program computes it and as the chapter prints it.
+#[derive(Clone, Debug, Serialize)]
+struct BesidePrinted {
+    value: f64,
+    /// The number with as many digits as the chapter has.
+    shown: String,
+    printed: &'static str,
+}
+
+impl BesidePrinted {
+    /// Returns the number with a check mark if the chapter prints the same number, or else followed by the printed one.
+    fn marked(&self) -> String {
+        let Self { shown, printed, .. } = self;
+        if shown == printed {
+            format!("{shown} ✓")
+        } else {
+            format!("{shown} (printed: {printed})")
+        }
+    }
 }
 
 /// State of a built-in scene's body at time `t` (s), as the tables and figures need it.

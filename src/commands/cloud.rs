@@ -83,7 +83,13 @@ pub(super) struct CloudArgs {
     #[arg(value_parser = clap::value_parser!(u16).range(1..=256))]
     threads: Option<u16>,
 
-    /// The file of the rows, CSV or JSON by its ending, or -
+    /// How to write it: csv or json
+    ///
+    /// By default from the ending of --out, else csv.
+    #[arg(long, value_name = "FORMAT", hide_possible_values = true)]
+    format: Option<RowFormat>,
+
+    /// The file of the rows, or - for standard output
     #[arg(long, value_name = "FILE", default_value = STDOUT)]
     out: PathBuf,
 
@@ -109,14 +115,14 @@ fn no_cloud(why: NoCloud) -> Error {
     })
 }
 
-/// Returns the format of the rows, which follows from the name of their file.
-fn format(out: &Path) -> Result<RowFormat, Error> {
+/// Returns the format of the rows, which follows from the name of their file unless it is `asked` for.
+fn format(out: &Path, asked: Option<RowFormat>) -> Result<RowFormat, Error> {
     match ending(out).as_deref() {
         Some("png" | "gif") => Err(Error::mistake(format!(
             "regatta cloud writes rows; `regatta capture --instrument cloud` draws {}",
             brief(out)
         ))),
-        _ => row_format(out, None),
+        _ => row_format(out, asked),
     }
 }
 
@@ -158,7 +164,7 @@ impl CloudArgs {
 }
 
 pub(super) fn run(args: &CloudArgs) -> Result<(), Error> {
-    let format = format(&args.out)?;
+    let format = format(&args.out, args.format)?;
     let scene = args.experiment.load(Mode::Race)?.scene;
     let specs = match args.experiment.names_no_method() {
         true => scene.lanes.clone(),

@@ -48,7 +48,7 @@ pub(super) struct FixtureArgs {
     every: u64,
 
     /// What to write: pytest, gtest, rust or json
-    #[arg(long = "as", value_name = "FORMAT", hide_possible_values = true)]
+    #[arg(long = "as", alias = "format", value_name = "FORMAT", hide_possible_values = true)]
     format: Format,
 
     /// Use single precision, as Unity and Godot do

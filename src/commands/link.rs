@@ -3,10 +3,12 @@
 use std::path::{Path, PathBuf};
 
 use clap::Args;
+use serde_json::json;
 
 use super::error::Error;
 use super::help::flowing;
-use super::output::print;
+use super::output::table::TableFormat;
+use super::output::{print, print_json};
 use super::scene_file;
 use super::terminal::print_status;
 use super::verify::recording::{end_of, refuse_late_checks};
@@ -39,6 +41,21 @@ pub(super) struct LinkArgs {
     /// A scene, the file of one or of a recording, or a link
     #[arg(value_name = "NAME|FILE")]
     run: PathBuf,
+
+    /// The format: text or json
+    #[arg(long, value_name = "FORMAT", default_value = "text", hide_possible_values = true)]
+    format: TableFormat,
+}
+
+impl LinkArgs {
+    fn print(&self, link: &str) -> Result<(), Error> {
+        match self.format {
+            TableFormat::Text => print(format!("{link}\n")),
+            TableFormat::Json => {
+                print_json(format!("{:#}\n", json!({"link": link, "letters": link.len()})))
+            }
+        }
+    }
 }
 
 /// Returns checks to the end of a scene, or of the part that takes some seconds.
@@ -69,7 +86,7 @@ fn work_of_last_tick(race: &Race) -> u64 {
 
 pub(super) fn run(args: &LinkArgs) -> Result<(), Error> {
     if let Some(name) = args.run.to_str().filter(|_| scene_file::is_built_in(&args.run)) {
-        return print(link::to_built_in(name) + "\n");
+        return args.print(&link::to_built_in(name));
     }
     let (mut scene, _) = scene_file::load(&args.run)?;
     refuse_late_checks(&args.run, &scene)?;
@@ -83,5 +100,5 @@ pub(super) fn run(args: &LinkArgs) -> Result<(), Error> {
             link.len()
         ));
     }
-    print(link + "\n")
+    args.print(&link)
 }

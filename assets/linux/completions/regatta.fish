@@ -741,7 +741,9 @@ ring\t''"
 complete -c regatta -n "__fish_regatta_using_subcommand cloud" -l reach -d 'The reach of the shape' -r
 complete -c regatta -n "__fish_regatta_using_subcommand cloud" -l seconds -d 'Simulated seconds of the run' -r
 complete -c regatta -n "__fish_regatta_using_subcommand cloud" -l threads -d 'Threads, 1 to 256 [default: one for each core]' -r
-complete -c regatta -n "__fish_regatta_using_subcommand cloud" -l out -d 'The file of the rows, CSV or JSON by its ending, or -' -r -F
+complete -c regatta -n "__fish_regatta_using_subcommand cloud" -l format -d 'How to write it: csv or json' -r -f -a "csv\t'Comma-separated values under a header'
+json\t'An array of objects with the same names'"
+complete -c regatta -n "__fish_regatta_using_subcommand cloud" -l out -d 'The file of the rows, or - for standard output' -r -F
 complete -c regatta -n "__fish_regatta_using_subcommand cloud" -l force -d 'Replace the file if it is there'
 complete -c regatta -n "__fish_regatta_using_subcommand cloud" -s h -l help -d 'Print help (see more with \'--help\')'
 complete -c regatta -n "__fish_regatta_using_subcommand loop" -l policy -d 'A policy, or several [default: the usual ones]' -r -f -a "variable\t''
@@ -1197,8 +1199,12 @@ complete -c regatta -n "__fish_regatta_using_subcommand diff" -l format -d 'The 
 json\t'An array of objects, for programs'"
 complete -c regatta -n "__fish_regatta_using_subcommand diff" -l no-header -d 'The first line is already a row'
 complete -c regatta -n "__fish_regatta_using_subcommand diff" -s h -l help -d 'Print help (see more with \'--help\')'
+complete -c regatta -n "__fish_regatta_using_subcommand link" -l format -d 'The format: text or json' -r -f -a "text\t'Aligned columns, for people'
+json\t'An array of objects, for programs'"
 complete -c regatta -n "__fish_regatta_using_subcommand link" -s h -l help -d 'Print help (see more with \'--help\')'
 complete -c regatta -n "__fish_regatta_using_subcommand chapter" -l out -d 'The directory for the figures and their data' -r -F
+complete -c regatta -n "__fish_regatta_using_subcommand chapter" -l format -d 'The format: text or json' -r -f -a "text\t'Aligned columns, for people'
+json\t'An array of objects, for programs'"
 complete -c regatta -n "__fish_regatta_using_subcommand chapter" -l force -d 'Replace the figures that DIR holds; other files in it stay'
 complete -c regatta -n "__fish_regatta_using_subcommand chapter" -s h -l help -d 'Print help (see more with \'--help\')'
 complete -c regatta -n "__fish_regatta_using_subcommand list" -l format -d 'The format: text or json' -r -f -a "text\t'Aligned columns, for people'

@@ -2,7 +2,9 @@
 
 use std::fmt::Write;
 
-use super::{Moment, by_method, exactly, method_of, scene};
+use serde::Serialize;
+
+use super::{BesidePrinted, Moment, by_method, exactly, method_of, scene};
 use crate::sim::number::significant;
 
 /// Time of the table's last row, in seconds.
@@ -19,39 +21,77 @@ const DISTANCES: [&str; 6] = [
     "rk4",
 ];
 
-/// Returns Table 7-1 and the averages below it.
-pub(super) fn table_7_1() -> String {
+/// Table 7-1 and the averages below it.
+pub(super) struct Table {
+    pub(super) rows: Vec<TableRow>,
+    pub(super) means: Vec<MeanError>,
+    /// Length of a tick in seconds.
+    step_s: f64,
+}
+
+/// A row of Table 7-1.
+#[derive(Serialize)]
+pub(super) struct TableRow {
+    t_s: f64,
+    exact_m_per_s: BesidePrinted,
+    euler_m_per_s: BesidePrinted,
+    error_percent: BesidePrinted,
+}
+
+/// Mean error of the speed by a method over the rows of the table.
+#[derive(Serialize)]
+pub(super) struct MeanError {
+    method: &'static str,
+    error_percent: BesidePrinted,
+}
+
+/// Computes Table 7-1.
+pub(super) fn table_7_1() -> Table {
     let scene = scene("ship");
     let hz = f64::from(scene.tick_hz);
     let truth = exactly(&scene, END_S, scene.tick_hz);
     let euler = by_method(&scene, "explicit-euler", END_S);
-    let mut text = format!(
-        "Table 7-1: speed of the ship by Euler's method, dt = {} s (✓ as printed)\n\n\
-         {:>6}  {:<12}  {:<12}  {}\n",
-        1.0 / hz,
-        "t (s)",
-        "exact (m/s)",
-        "Euler (m/s)",
-        "error",
-    );
-    for (t, [exact, by_euler, error]) in TABLE_7_1 {
-        let tick = (t * hz).round() as usize;
-        let found = [
-            marked(&seven_digits(truth[tick].v), exact),
-            marked(&seven_digits(euler[tick].v), by_euler),
-            marked(&percent(off(&euler, &truth, tick)), error),
-        ];
-        let _ = writeln!(text, "{t:>6.1}  {:<12}  {:<12}  {}", found[0], found[1], found[2]);
-    }
-    text += "\nMean error of the speed over these rows (global and relative; the chapter calls it average \
-             truncation error)\n\n";
-    for (id, printed) in AVERAGES {
-        let speeds = by_method(&scene, id, END_S);
+    let speed = |value, printed| BesidePrinted { value, shown: seven_digits(value), printed };
+    let error = |value, printed| BesidePrinted { value, shown: percent(value), printed };
+    let row = |(t_s, [exact, by_euler, off_by]): (f64, [&'static str; 3])| {
+        let tick = (t_s * hz).round() as usize;
+        TableRow {
+            t_s,
+            exact_m_per_s: speed(truth[tick].v, exact),
+            euler_m_per_s: speed(euler[tick].v, by_euler),
+            error_percent: error(off(&euler, &truth, tick), off_by),
+        }
+    };
+    let mean = |(method, printed): (&'static str, &'static str)| {
+        let speeds = by_method(&scene, method, END_S);
         let errors = TABLE_7_1.map(|(t, _)| off(&speeds, &truth, (t * hz).round() as usize).abs());
         let mean = errors.iter().sum::<f64>() / errors.len() as f64;
-        let _ = writeln!(text, "  {:<16}  {}", method_of(id).name, marked(&percent(mean), printed));
+        MeanError { method, error_percent: error(mean, printed) }
+    };
+    let (rows, means) = (TABLE_7_1.map(row).into(), AVERAGES.map(mean).into());
+    Table { rows, means, step_s: 1.0 / hz }
+}
+
+impl Table {
+    pub(super) fn text(&self) -> String {
+        let mut text = format!(
+            "Table 7-1: speed of the ship by Euler's method, dt = {} s (✓ as printed)\n\n\
+             {:>6}  {:<12}  {:<12}  {}\n",
+            self.step_s, "t (s)", "exact (m/s)", "Euler (m/s)", "error",
+        );
+        for row in &self.rows {
+            let found = [&row.exact_m_per_s, &row.euler_m_per_s, &row.error_percent];
+            let [exact, euler, error] = found.map(BesidePrinted::marked);
+            let _ = writeln!(text, "{:>6.1}  {exact:<12}  {euler:<12}  {error}", row.t_s);
+        }
+        text += "\nMean error of the speed over these rows (global and relative; the chapter calls it average \
+                 truncation error)\n\n";
+        for mean in &self.means {
+            let name = method_of(mean.method).name;
+            let _ = writeln!(text, "  {name:<16}  {}", mean.error_percent.marked());
+        }
+        text
     }
-    text
 }
 
 /// Returns the relative error of the speed after `tick` ticks, in percent.
@@ -59,33 +99,56 @@ fn off(found: &[Moment], truth: &[Moment], tick: usize) -> f64 {
     100.0 * (found[tick].v - truth[tick].v) / truth[tick].v
 }
 
-/// Returns the table of the distances run, which the chapter does not print. The chapter's listings carry only the
-/// speed through their stages, so that the distance loses their order.
-pub(super) fn displacements() -> String {
+/// The distances run, which the chapter does not print. The chapter's listings carry only the speed through their
+/// stages, so that the distance loses their order.
+pub(super) struct Distances {
+    pub(super) rows: Vec<Distance>,
+    exact_m: f64,
+    /// Length of a tick in seconds.
+    step_s: f64,
+}
+
+/// The distance run by a method.
+#[derive(Serialize)]
+pub(super) struct Distance {
+    method: &'static str,
+    distance_m: f64,
+    error_m: f64,
+    error_percent: f64,
+}
+
+/// Computes the distances run until the end of Table 7-1.
+pub(super) fn displacements() -> Distances {
     let scene = scene("ship");
-    let hz = f64::from(scene.tick_hz);
     let last = |moments: Vec<Moment>| moments.last().expect("the start at least").q;
-    let truth = last(exactly(&scene, END_S, scene.tick_hz));
-    let mut text = format!(
-        "Distance run after {END_S} s, dt = {} s: exactly {truth:.7} m\n\n  {:<28}  {:>10}  {:>10}  {:>12}\n",
-        1.0 / hz,
-        "method",
-        "s (m)",
-        "error (m)",
-        "error",
-    );
-    for id in DISTANCES {
-        let found = last(by_method(&scene, id, END_S));
-        let error = found - truth;
-        let _ = writeln!(
-            text,
-            "  {:<28}  {found:>10.6}  {:>10}  {:>12}",
-            method_of(id).name,
-            significant(error, 4),
-            format!("{} %", significant(100.0 * error / truth, 3)),
+    let exact_m = last(exactly(&scene, END_S, scene.tick_hz));
+    let row = |method| {
+        let distance_m = last(by_method(&scene, method, END_S));
+        let error_m = distance_m - exact_m;
+        Distance { method, distance_m, error_m, error_percent: 100.0 * error_m / exact_m }
+    };
+    let step_s = 1.0 / f64::from(scene.tick_hz);
+    Distances { rows: DISTANCES.map(row).into(), exact_m, step_s }
+}
+
+impl Distances {
+    pub(super) fn text(&self) -> String {
+        let mut text = format!(
+            "Distance run after {END_S} s, dt = {} s: exactly {:.7} m\n\n  {:<28}  {:>10}  {:>10}  {:>12}\n",
+            self.step_s, self.exact_m, "method", "s (m)", "error (m)", "error",
         );
+        for row in &self.rows {
+            let _ = writeln!(
+                text,
+                "  {:<28}  {:>10.6}  {:>10}  {:>12}",
+                method_of(row.method).name,
+                row.distance_m,
+                significant(row.error_m, 4),
+                format!("{} %", significant(row.error_percent, 3)),
+            );
+        }
+        text + "\n  Semi-implicit Euler is what the chapter's listing of Euler's method does.\n"
     }
-    text + "\n  Semi-implicit Euler is what the chapter's listing of Euler's method does.\n"
 }
 
 /// A row of Table 7-1: the time (s), the exact speed (m/s), the speed by Euler's method (m/s), and the error.
@@ -100,11 +163,6 @@ const TABLE_7_1: [(f64, [&str; 3]); 5] = [
 /// Average errors of three methods over the rows of the table.
 const AVERAGES: [(&str, &str); 3] =
     [("explicit-euler", "1.72%"), ("improved-euler", "0.03%"), ("rk4", "3.6e-6%")];
-
-/// Returns the number with a check mark if the chapter prints the same number, or else followed by the printed one.
-fn marked(found: &str, printed: &str) -> String {
-    if found == printed { format!("{found} ✓") } else { format!("{found} (printed: {printed})") }
-}
 
 /// Formats a number like C's `%.7g`, for magnitudes from 1e-4 up to 1e7.
 fn seven_digits(x: f64) -> String {
@@ -146,7 +204,8 @@ mod tests {
 
     #[test]
     fn a_differing_number_shows_the_printed_one_too() {
-        assert_eq!(marked("9.5", "9.5"), "9.5 ✓");
-        assert_eq!(marked("9.5", "9.6"), "9.5 (printed: 9.6)");
+        let marked = |printed| BesidePrinted { value: 9.5, shown: "9.5".into(), printed }.marked();
+        assert_eq!(marked("9.5"), "9.5 ✓");
+        assert_eq!(marked("9.6"), "9.5 (printed: 9.6)");
     }
 }

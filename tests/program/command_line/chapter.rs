@@ -2,6 +2,8 @@
 
 use std::fs;
 
+use serde_json::Value;
+
 use super::capture::names;
 use super::{refusal, run_in, stderr, stdout_of};
 
@@ -100,4 +102,35 @@ fn figures_replace_only_figures_and_only_when_forced() {
 fn a_figure_needs_a_directory() {
     assert!(refusal("chapter --out Cargo.toml", 2).contains("Cargo.toml is not a directory"));
     assert!(refusal("chapter --force", 2).contains("--out <DIR>"));
+}
+
+#[test]
+fn the_chapter_a_link_a_cloud_and_a_fixture_are_also_written_as_json() {
+    let json = |arguments: &str| -> Value {
+        serde_json::from_str(&stdout_of(&format!("{arguments} --format json"))).unwrap()
+    };
+    let chapter = json("chapter");
+    let rows = chapter["table_7_1"].as_array().unwrap();
+    assert_eq!(rows.len(), 5);
+    for row in rows {
+        let cell = &row["exact_m_per_s"];
+        let printed: f64 = cell["printed"].as_str().unwrap().parse().unwrap();
+        assert_eq!(cell["shown"], cell["printed"]);
+        assert!((cell["value"].as_f64().unwrap() - printed).abs() < 1e-5, "{row}");
+    }
+    let rk4 = &chapter["distances"][5];
+    assert_eq!(rk4["method"], "rk4");
+    assert!((rk4["distance_m"].as_f64().unwrap() - 55.482990).abs() < 1e-6, "{rk4}");
+    assert_eq!(chapter["adaptive_euler"][2]["substeps"], 182);
+
+    let link = stdout_of("link spring");
+    assert_eq!(json("link spring")["link"], link.trim_end());
+    let clouds = json("cloud --scene liouville --points 100 --seconds 1");
+    assert_eq!(clouds[3]["method"], "rk4");
+    let fixture = "fixture --scene spring --seconds 1";
+    assert_eq!(json(fixture).to_string(), {
+        let states: Value =
+            serde_json::from_str(&stdout_of(&format!("{fixture} --as json"))).unwrap();
+        states.to_string()
+    });
 }
