@@ -34,6 +34,7 @@ mod help;
 mod identify;
 mod link;
 mod list;
+mod mcp;
 #[cfg(feature = "window")]
 mod play;
 mod port;
@@ -285,6 +286,7 @@ subcommands! {
     #[cfg(feature = "view")]
     Chapter(chapter::ChapterArgs) => chapter::run,
     List(list::ListArgs) => list::run,
+    Mcp(mcp::McpArgs) => mcp::run,
     Completions(completions::CompletionsArgs) => |args| completions::run(args, &mut Cli::command()),
     Help(help::HelpArgs) => |args| help::run(args, Cli::command(), &list::keys()),
 }

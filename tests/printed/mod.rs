@@ -8,7 +8,7 @@ use regatta::manual::CHAPTERS;
 
 /// The README or a chapter, as the file is now.
 pub(crate) struct Text {
-    /// `README`, or the chapter's id.
+    /// `README`, `SKILL`, or the chapter's id.
     pub(crate) name: &'static str,
     path: PathBuf,
     pub(crate) text: String,
@@ -24,13 +24,14 @@ pub(crate) struct Block<'t> {
     pub(crate) above: &'t str,
 }
 
-/// Every chapter, then the README.
+/// Every chapter, the README, then the text for assistants.
 pub(crate) fn texts() -> Vec<Text> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let chapters = CHAPTERS
         .iter()
         .map(|chapter| (chapter.id, root.join("src/manual").join(chapter.id).with_extension("md")));
-    let all = chapters.chain([("README", root.join("README.md"))]);
+    let others = [("README", root.join("README.md")), ("SKILL", root.join("assets/SKILL.md"))];
+    let all = chapters.chain(others);
     all.map(|(name, path)| {
         let text = fs::read_to_string(&path).expect("it is a file of the package");
         Text { name, path, text }

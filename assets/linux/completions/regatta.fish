@@ -138,6 +138,7 @@ complete -c regatta -n "__fish_regatta_needs_command" -f -a "diff" -d 'Say where
 complete -c regatta -n "__fish_regatta_needs_command" -f -a "link" -d 'Print a run as a link'
 complete -c regatta -n "__fish_regatta_needs_command" -f -a "chapter" -d 'Print the chapter\'s tables, and draw its Figures 7-2 to 7-8'
 complete -c regatta -n "__fish_regatta_needs_command" -f -a "list" -d 'List scenes, methods, bodies, metrics, policies, traces or keys'
+complete -c regatta -n "__fish_regatta_needs_command" -f -a "mcp" -d 'Answer an assistant by the Model Context Protocol'
 complete -c regatta -n "__fish_regatta_needs_command" -f -a "completions" -d 'Print a completion script for a shell'
 complete -c regatta -n "__fish_regatta_needs_command" -f -a "help" -d 'Print this help, help on a command, or a chapter of the manual'
 complete -c regatta -n "__fish_regatta_using_subcommand play" -l scene -d 'A scene or the file of one [default: harbour]' -r -f -a "harbour\t''
@@ -1210,5 +1211,6 @@ complete -c regatta -n "__fish_regatta_using_subcommand chapter" -s h -l help -d
 complete -c regatta -n "__fish_regatta_using_subcommand list" -l format -d 'The format: text or json' -r -f -a "text\t'Aligned columns, for people'
 json\t'An array of objects, for programs'"
 complete -c regatta -n "__fish_regatta_using_subcommand list" -s h -l help -d 'Print help (see more with \'--help\')'
+complete -c regatta -n "__fish_regatta_using_subcommand mcp" -s h -l help -d 'Print help (see more with \'--help\')'
 complete -c regatta -n "__fish_regatta_using_subcommand completions" -s h -l help -d 'Print help (see more with \'--help\')'
 complete -c regatta -n "__fish_regatta_using_subcommand help" -s h -l help -d 'Print help (see more with \'--help\')'

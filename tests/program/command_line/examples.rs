@@ -20,7 +20,7 @@ use crate::printed::texts;
 /// - `sh` and `yaml`: options are compared with the help of their commands, below; the table above the command of `loops` with
 ///   its rows, in `loops.rs`; the pipe to ffmpeg is run in `formats.rs`.
 /// - `toml`: scenes are read, below; dependencies are resolved in `tests/library/ci_recipe.rs`.
-const BLOCKS: [(&str, &str, usize); 19] = [
+const BLOCKS: [(&str, &str, usize); 20] = [
     ("scenes", "toml", 4),
     ("commands", "console", 6),
     ("commands", "sh", 2),
@@ -40,6 +40,7 @@ const BLOCKS: [(&str, &str, usize); 19] = [
     ("README", "console", 1),
     ("README", "sh", 1),
     ("README", "toml", 1),
+    ("SKILL", "console", 10),
 ];
 
 /// A log of Box2D: a spring of 1 Hz and a damping ratio of 0.05.
@@ -98,8 +99,15 @@ fn every_example_with_an_answer_prints_that_answer() {
         }
         compared.extend((count > 0).then_some((text.name, count)));
     }
-    let expected =
-        [("commands", 4), ("logs", 1), ("questions", 20), ("code", 1), ("step", 3), ("README", 1)];
+    let expected = [
+        ("commands", 4),
+        ("logs", 1),
+        ("questions", 20),
+        ("code", 1),
+        ("step", 3),
+        ("README", 1),
+        ("SKILL", 10),
+    ];
     assert_eq!(compared, expected);
 }
 

@@ -21,6 +21,7 @@ mod list;
 mod loop_frames;
 mod loops;
 mod manifest;
+mod mcp;
 mod mishaps;
 mod mistakes;
 mod mutations;
