@@ -190,7 +190,7 @@ fn a_changed_constant_is_a_change_of_physics_at_the_first_tick() {
         manifest.recording = text;
         manifest.settings_hash = manifest.hash();
     });
-    let (code, stdout, stderr) = verify(folder.path(), "--physics-only");
+    let (code, stdout, _) = verify(folder.path(), "--physics-only");
     assert_eq!(code, Some(1));
     assert!(stdout.starts_with("physics: differs first at tick 1: lane 1, "), "{stdout}");
     assert_eq!(verify(folder.path(), "").0, Some(1));
