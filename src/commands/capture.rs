@@ -15,7 +15,7 @@ use super::id::{INSTRUMENT, RENDERER, SHAPE, THEME};
 use super::output::{Destination, Output};
 use super::picture_format::{self, PictureFormat, Writing};
 use super::schedule::{FPS, MAX_FPS, Schedule, frames_in};
-use super::settings::CaptureSettings;
+use super::settings::{CaptureSettings, drawing_for_manifest};
 use super::{clip, movie, sheet, state_log};
 use crate::atomic_file::IfExists;
 use crate::look::palette::Theme;
@@ -132,7 +132,7 @@ pub(super) struct CaptureArgs {
 
     /// Ticks between two states in the manifest
     ///
-    /// By default there are about 500 states in all.
+    /// By default there are about 500 of each lane, and at most 8000 in all.
     #[arg(long, value_name = "N")]
     #[arg(value_parser = clap::value_parser!(u64).range(1..=1_000_000_000))]
     mark_every: Option<u64>,
@@ -219,7 +219,8 @@ pub(super) fn run(args: &CaptureArgs) -> Result<(), Error> {
             let existing = if args.force { FolderPolicy::Replace } else { FolderPolicy::Refuse };
             let folder = FrameFolder::inspect(&args.out, existing, PlaceOf::Option("--out"))?;
             let renderer = capture.renderer()?;
-            clip::record(&experiment, studio, capture, renderer, folder).map(drop)
+            let drawing = drawing_for_manifest(&experiment, &capture);
+            clip::record(&experiment, drawing, studio, capture, renderer, folder).map(drop)
         }
         Writing::Sheet => sheet::draw(&experiment, &studio, capture, open(args)?),
         Writing::Movie(begin) => movie::record(studio, capture, begin, open(args)?),

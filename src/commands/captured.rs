@@ -10,13 +10,15 @@ use super::experiment::Experiment;
 use super::manifest::{self, FILE_NAME, Manifest, SCHEMA};
 use super::settings::{self, CaptureSettings};
 use crate::regular_file::{self, Unreadable};
-use crate::scene::{Check, LaneId, Scene};
+use crate::run::race::Mode;
+use crate::scene::{Check, Scene};
 
 /// The run of a capture, as its manifest describes it.
 pub(super) struct CapturedRun {
-    pub(super) manifest: Manifest,
     pub(super) capture: CaptureSettings,
     pub(super) experiment: Experiment,
+    /// The states that the lanes reached, by tick.
+    pub(super) checks: Vec<Check>,
 }
 
 /// Returns a function that makes the error for a capture in `dir` that cannot be judged, from the reason.
@@ -25,38 +27,21 @@ pub(super) fn unjudged(dir: &Path) -> impl Fn(String) -> Error {
     move |reason| Error::mistake(format!("cannot judge {}: {reason}", brief(&manifest)))
 }
 
-/// Reads the run of the capture in `dir` from its manifest.
-pub(super) fn read_run(dir: &Path) -> Result<CapturedRun, Error> {
+/// Reads the run of the capture in `dir` from its manifest, and the manifest.
+pub(super) fn read_run(dir: &Path) -> Result<(CapturedRun, Manifest), Error> {
     let read = || {
         let manifest = read(&dir.join(FILE_NAME))?;
-        let (experiment, capture) = settings::from_manifest(&manifest.settings)?;
-        Ok(CapturedRun { manifest, capture, experiment })
+        Ok((settings::from_manifest(&manifest)?, manifest))
     };
     read().map_err(unjudged(dir))
 }
 
-/// Returns the run of the capture in `dir` as a scene, with the states of its marks as checks.
+/// Returns the run of the capture in `dir` as a scene, with the states of its lanes as checks.
 pub(super) fn scene_of_capture(dir: &Path) -> Result<Scene, Error> {
-    let CapturedRun { manifest, experiment, .. } = read_run(dir)?;
-    let (race, opening) = (manifest.settings.race, experiment.opening_method());
-    let lanes = &experiment.scene.lanes;
-    let first =
-        if race { 0 } else { lanes.iter().position(|it| it.method == opening).unwrap_or(0) };
-    let check = |tick: u64, (index, hash): (usize, &String)| {
-        let hash = u64::from_str_radix(hash, 16).map_err(|_| {
-            let file = brief(&dir.join(FILE_NAME));
-            Error::mistake(format!("{file}: {hash:?} is no hash of a state; capture again"))
-        })?;
-        Ok(Check { tick, lane: LaneId::of_index(first + index), hash })
-    };
-    let marks = manifest.marks.iter().flat_map(|mark| {
-        let lanes = mark.lanes.iter().map(|lane| &lane.hash).enumerate();
-        lanes.map(|lane| check(mark.tick, lane))
-    });
-    let checks = marks.collect::<Result<Vec<Check>, Error>>()?;
+    let (CapturedRun { experiment, checks, .. }, _) = read_run(dir)?;
     Ok(Scene {
         checks,
-        opens_as_race: race,
+        opens_as_race: experiment.mode == Mode::Race,
         opening_method: experiment.selected.or(experiment.scene.opening_method),
         ..experiment.scene
     })
@@ -77,7 +62,7 @@ fn read(path: &Path) -> Result<Manifest, String> {
         Some(schema) if schema == u64::from(SCHEMA) => {}
         Some(schema) => {
             return Err(format!(
-                "it is of schema {schema}, and this program reads {SCHEMA}; capture again"
+                "it is of schema {schema}, and this program reads {SCHEMA}; capture again, with --force"
             ));
         }
         None => return Err("it does not name its schema; capture again".into()),

@@ -6,9 +6,8 @@ use super::experiment::Experiment;
 use super::frame_folder::FrameFolder;
 use super::frame_names::frame_name;
 use super::interrupt::watch_for_interrupt;
-use super::manifest::{FrameEntry, Manifest, SCHEMA, fingerprint};
+use super::manifest::{Drawing, FrameEntry, Manifest, SCHEMA, fingerprint};
 use super::pipeline::{DrawnFrame, Pipeline};
-use super::settings;
 use super::settings::CaptureSettings;
 use super::state_log::{self, StateLog};
 use super::terminal::{print_status, report_left_alone};
@@ -16,9 +15,10 @@ use crate::studio::Studio;
 use crate::view::{OffscreenRenderer, PreparedFrame, png};
 
 /// Draws the run of `studio` into `folder`, and reports the result on standard error. The studio must be at the start
-/// of `experiment`, and the renderer must be one of `capture`. Returns the studio at the end of the run.
+/// of `experiment`, and `drawing` and the renderer must be those of `capture`. Returns the studio at the end of the run.
 pub(super) fn record(
     experiment: &Experiment,
+    drawing: Drawing,
     studio: Studio,
     capture: CaptureSettings,
     mut renderer: OffscreenRenderer,
@@ -54,18 +54,19 @@ pub(super) fn record(
     if done < frames && !folder.keeps_partial_capture() {
         return Err(interrupted_after(done, frames, "the old frames"));
     }
-    let settings = settings::settings_for_manifest(experiment, &capture);
-    let manifest = Manifest {
+    let checks = state_log.close(studio.race());
+    let mut manifest = Manifest {
         schema: SCHEMA,
         regatta: env!("CARGO_PKG_VERSION").to_owned(),
-        settings_hash: settings.hash(),
-        settings,
+        recording: state_log::recording_text(&experiment.scene, &checks).map_err(Error::mistake)?,
+        drawing,
+        settings_hash: String::new(),
         adapter,
         complete: done == frames,
         frames: entries,
         lanes: state_log::ends(&studio),
-        marks: state_log.close(studio.race()),
     };
+    manifest.settings_hash = manifest.hash();
     let (path, others) = (folder.path().to_owned(), folder.others().to_vec());
     folder.finish(&manifest.to_text())?;
     if done < frames {

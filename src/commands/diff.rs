@@ -23,9 +23,9 @@ mod source;
 use source::Source;
 
 const ABOUT: &str = "\
-A run is a table, a scene or recording (diff runs it again), the directory of a capture (diff reads the
-states in its manifest), or - for a table on standard input. A table comes from `regatta trace`, or has a
-column for each number; commas, semicolons, tabs or spaces separate its cells. It may be JSON too, such as
+A run is a table, a scene, a recording or the directory of a capture (diff runs these again, a capture to
+its last state), or - for a table on standard input. A table comes from `regatta trace`, or has a column
+for each number; commas, semicolons, tabs or spaces separate its cells. It may be JSON too, such as
 an object on each line. A dump, whose first line is as Frame: 1000, is compared line by line, by frames.
 
 Diff matches rows by the columns tick, lane, body and coordinate, as far as the tables have them; without
@@ -51,7 +51,7 @@ Examples:
   regatta diff before.csv after.csv
   regatta trace --method rk4 | regatta diff before.csv -
   regatta diff a.csv b.csv --key frame,object --ignore wall_ms
-  regatta diff clip clip-of-yesterday --format json";
+  regatta diff clip log-of-yesterday.csv --format json";
 
 /// Say where two runs first differ
 ///

@@ -17,7 +17,7 @@ use super::id::{RENDERER, THEME};
 use super::interrupt::on_interrupt;
 use super::output::{Destination, Output};
 use super::schedule::{FPS, Schedule, frames_in};
-use super::settings::CaptureSettings;
+use super::settings::{CaptureSettings, drawing_for_manifest};
 use super::terminal::print_status;
 use super::unfinished::{self, UnfinishedRecording};
 use super::{WINDOW_LIBRARIES, clip, preferences, scene_file, state_log};
@@ -231,6 +231,7 @@ fn without_display(
         mark_every: state_log::usual_stride(schedule.ticks(&studio)),
         renderer: args.renderer.unwrap_or(RendererChoice::Cpu),
     };
+    let drawing = drawing_for_manifest(experiment, &capture);
     // The error of a missing device comes before frames are promised.
     let renderer = capture.renderer()?;
     // winit names no library, and no display.
@@ -248,7 +249,7 @@ fn without_display(
         folder.path().display(),
     ));
     let last = args.seconds.map(|seconds| studio.race().nearest_tick(seconds));
-    let mut studio = clip::record(experiment, studio, capture, renderer, folder)?;
+    let mut studio = clip::record(experiment, drawing, studio, capture, renderer, folder)?;
     // The last frame may be before the end of the run.
     while last.is_some_and(|last| studio.race().tick() < last) {
         studio.tick();

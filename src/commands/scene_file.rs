@@ -60,7 +60,7 @@ fn capture_at(path: &Path) -> Option<PathBuf> {
 
 /// Returns the trace of the loop lab that the capture at `path` shows, if it does.
 pub(super) fn loop_trace_of(path: &Path) -> Option<&'static TraceCard> {
-    captured::read_run(&capture_at(path)?).ok()?.experiment.loop_trace
+    captured::read_run(&capture_at(path)?).ok()?.0.experiment.loop_trace
 }
 
 /// Returns the scene of the rule whose lines are in a file.

@@ -1,17 +1,16 @@
 //! The settings of a capture, and their conversion to and from those of a manifest.
 
+use super::captured::CapturedRun;
 use super::experiment::Experiment;
 use super::frame_names::{MAX_FRAMES, frame_name};
 use super::id::{CLOUD, INSTRUMENT, TRACE};
-use super::manifest::{
-    FrameEntry, LaneEntry, Manifest, OwnEntry, SceneText, Settings, fingerprint,
-};
+use super::manifest::{Drawing, Manifest, fingerprint};
 use super::schedule::{MAX_FPS, Schedule};
 use crate::look::palette::Theme;
 use crate::measure::cloud::{CloudChoice, CloudKind};
 use crate::run::race::Mode;
-use crate::scene::{LaneSpec, MAX_LANES, MAX_SUBSTEPS, Scene, Swing, TOLERANCES, own};
-use crate::sim::integrators::{Method, method};
+use crate::scene::Scene;
+use crate::sim::integrators::method;
 use crate::studio::{Instrument, Motion, RunCommand, Studio};
 #[cfg(feature = "view")]
 use crate::view::RendererChoice;
@@ -32,7 +31,7 @@ pub(super) struct CaptureSettings {
     /// Whether trails fade and the camera glides.
     pub(super) motion: bool,
     pub(super) theme: Theme,
-    /// Number of ticks between two marks in the manifest.
+    /// Number of ticks between two states in the manifest.
     pub(super) mark_every: u64,
     #[cfg(feature = "view")]
     pub(super) renderer: RendererChoice,
@@ -57,36 +56,17 @@ impl CaptureSettings {
 /// Name of the light theme in a manifest. The dark theme is not written.
 const LIGHT: &str = "light";
 
-/// Returns the settings of a run in the form for its manifest.
-pub(super) fn settings_for_manifest(
-    experiment: &Experiment,
-    capture: &CaptureSettings,
-) -> Settings {
+/// Returns the drawing of an experiment in the form for its manifest.
+pub(super) fn drawing_for_manifest(experiment: &Experiment, capture: &CaptureSettings) -> Drawing {
     let scene = &experiment.scene;
-    let lane = |lane: &LaneSpec| LaneEntry {
-        method: lane.method.id.to_owned(),
-        substeps: lane.substeps,
-        tolerance: lane.tolerance,
-        joint: lane.joint.map(|it| [it.frequency_hz, it.damping_ratio]),
-    };
-    let own = |method: &&Method| {
-        let step = method.own_text()?.to_owned();
-        let fps = method.rule_fps().map(|fps| fps.to_string());
-        Some(OwnEntry { id: method.id.to_owned(), step, fps })
-    };
-    Settings {
-        scene: SceneText {
-            name: scene.name.clone(),
-            hash: fingerprint(experiment.text.as_bytes()),
-            text: experiment.text.clone(),
-        },
-        lanes: scene.lanes.iter().map(lane).collect(),
-        methods: scene.own_methods.iter().filter_map(own).collect(),
+    Drawing {
+        scene: scene.name.clone(),
+        scene_hash: fingerprint(experiment.text.as_bytes()),
+        own_checks: scene.checks.len(),
         race: experiment.mode == Mode::Race,
         loop_trace: experiment.loop_trace.map(|card| card.id.to_owned()),
         selected: (!experiment.leaves_selection())
             .then(|| experiment.opening_method().id.to_owned()),
-        tick_hz: scene.tick_hz,
         frames: capture.schedule.frames,
         fps: capture.schedule.fps,
         size: capture.size_px,
@@ -101,87 +81,54 @@ pub(super) fn settings_for_manifest(
     }
 }
 
-/// Returns the run that these settings describe.
+/// Returns the run that a manifest describes, with its settings and the states that its lanes reached.
 ///
 /// # Errors
 /// The reason why this program cannot make the run.
-pub(super) fn from_manifest(settings: &Settings) -> Result<(Experiment, CaptureSettings), String> {
-    let SceneText { name, text, .. } = &settings.scene;
-    let made = |entry: &OwnEntry| {
-        let refused = |why| format!("this program cannot read the method {:?}: {why}", entry.id);
-        let fps = entry.fps.as_deref().map(str::parse).transpose().map_err(refused)?;
-        own(&entry.id, &entry.step, fps).map_err(|fault| refused(fault.what))
-    };
-    let own = settings.methods.iter().map(made).collect::<Result<Vec<_>, _>>()?;
-    let known = |id: &str| {
-        let found = own.iter().copied().find(|own| own.id == id).or_else(|| method(id));
-        found.ok_or_else(|| format!("this program has no method {id:?}"))
-    };
-    let scene = Scene::parse(&format!("{name}.toml"), text)
-        .map_err(|errors| format!("this program cannot read the scene: {errors}"))?;
-    let substeps = |lane: &LaneEntry| (1..=MAX_SUBSTEPS).contains(&lane.substeps);
-    let tolerance = |lane: &LaneEntry| {
-        lane.tolerance.is_none_or(|given| (TOLERANCES.0..=TOLERANCES.1).contains(&given))
-    };
-    let swing = |[frequency_hz, damping_ratio]: [f64; 2]| Swing { frequency_hz, damping_ratio };
-    let joint = |lane: &LaneEntry| lane.joint.map(swing).is_none_or(Swing::is_in_range);
+pub(super) fn from_manifest(manifest: &Manifest) -> Result<CapturedRun, String> {
+    let Manifest { recording, drawing, .. } = manifest;
     for (key, is_in_range) in [
-        ("tick_hz", settings.tick_hz.is_in_range()),
-        ("frames", (1..=MAX_FRAMES).contains(&settings.frames)),
-        ("fps", (1..=MAX_FPS).contains(&settings.fps)),
-        ("scale", (0.5..=4.0).contains(&settings.scale)),
-        ("mark_every", settings.mark_every > 0),
-        ("lanes", (1..=MAX_LANES).contains(&settings.lanes.len())),
-        ("substeps", settings.lanes.iter().all(substeps)),
-        ("tolerance", settings.lanes.iter().all(tolerance)),
-        ("joint", settings.lanes.iter().all(joint)),
+        ("frames", (1..=MAX_FRAMES).contains(&drawing.frames)),
+        ("fps", (1..=MAX_FPS).contains(&drawing.fps)),
+        ("scale", (0.5..=4.0).contains(&drawing.scale)),
+        ("mark_every", drawing.mark_every > 0),
     ] {
         if !is_in_range {
             return Err(format!("its {key} is out of range; capture again"));
         }
     }
-    let mut scene = scene.at_tick_hz(settings.tick_hz);
-    let lane = |lane: &LaneEntry| {
-        let method = known(&lane.method)?;
-        if lane.tolerance.is_some() && method.tolerance.is_none() {
-            return Err(format!(
-                "its {} has a tolerance, but the method takes none; capture again",
-                method.id
-            ));
-        }
-        let &LaneEntry { substeps, tolerance, .. } = lane;
-        let joint = lane.joint.map(swing);
-        Ok(LaneSpec { method, substeps, tolerance, joint })
+    let mut scene = Scene::parse(&format!("{}.toml", drawing.scene), recording)
+        .map_err(|errors| format!("this program cannot read the recording: {errors}"))?;
+    let checks = scene.checks.split_off(drawing.own_checks.min(scene.checks.len()));
+    let known = |id: &str| {
+        let found = scene.own_methods.iter().copied().find(|own| own.id == id);
+        found.or_else(|| method(id)).ok_or_else(|| format!("this program has no method {id:?}"))
     };
-    // The lanes already have the substeps that equal cost gave them.
-    scene.equal_cost = false;
-    scene.own_methods.clone_from(&own);
-    scene.lanes = settings.lanes.iter().map(lane).collect::<Result<_, String>>()?;
     let experiment = Experiment {
+        selected: drawing.selected.as_deref().map(known).transpose()?,
         scene,
-        text: text.clone(),
-        selected: settings.selected.as_deref().map(known).transpose()?,
-        mode: if settings.race { Mode::Race } else { Mode::Solo },
-        loop_trace: settings.loop_trace.as_deref().map(|id| TRACE.find(id)).transpose()?,
+        text: recording.clone(),
+        mode: if drawing.race { Mode::Race } else { Mode::Solo },
+        loop_trace: drawing.loop_trace.as_deref().map(|id| TRACE.find(id)).transpose()?,
     };
     let capture = CaptureSettings {
-        schedule: Schedule { frames: settings.frames, fps: settings.fps },
-        size_px: settings.size,
-        scale: settings.scale as f32,
-        panels: settings.panels,
-        instrument: settings.instrument.as_deref().map(|id| INSTRUMENT.find(id)).transpose()?,
-        cloud: settings.cloud.as_deref().map(|id| CLOUD.find(id)).transpose()?,
-        motion: settings.motion,
-        theme: match settings.theme.as_deref() {
+        schedule: Schedule { frames: drawing.frames, fps: drawing.fps },
+        size_px: drawing.size,
+        scale: drawing.scale as f32,
+        panels: drawing.panels,
+        instrument: drawing.instrument.as_deref().map(|id| INSTRUMENT.find(id)).transpose()?,
+        cloud: drawing.cloud.as_deref().map(|id| CLOUD.find(id)).transpose()?,
+        motion: drawing.motion,
+        theme: match drawing.theme.as_deref() {
             None => Theme::Dark,
             Some(LIGHT) => Theme::Light,
             Some(other) => return Err(format!("this program has no theme {other:?}")),
         },
-        mark_every: settings.mark_every,
+        mark_every: drawing.mark_every,
         #[cfg(feature = "view")]
         renderer: RendererChoice::Cpu,
     };
-    Ok((experiment, capture))
+    Ok(CapturedRun { experiment, capture, checks })
 }
 
 /// Checks that nobody has altered a manifest.
@@ -189,44 +136,18 @@ pub(super) fn from_manifest(settings: &Settings) -> Result<(Experiment, CaptureS
 /// # Errors
 /// A description of the alteration.
 pub(super) fn check(manifest: &Manifest) -> Result<(), String> {
-    let settings = &manifest.settings;
-    let scene = &settings.scene;
-    if fingerprint(scene.text.as_bytes()) != scene.hash {
-        return Err("the scene's text was altered: its hash differs; capture again".into());
-    }
     let mut names = manifest.frames.iter().zip(0..).map(|(frame, n)| (&frame.file, frame_name(n)));
-    let (drawn, asked) = (manifest.frames.len(), settings.frames as usize);
+    let (drawn, asked) = (manifest.frames.len(), manifest.drawing.frames as usize);
     if drawn > asked || manifest.complete && drawn < asked {
         return Err(format!("it lists {drawn} frames of {asked}; capture again"));
     }
     if let Some((file, name)) = names.find(|(file, name)| *file != name) {
         return Err(format!("it has {file:?} in the place of {name}; capture again"));
     }
-    let marked = manifest.marks.last().map_or(0, |mark| mark.lanes.len());
-    if manifest.lanes.len() < marked {
-        let ended = manifest.lanes.len();
-        return Err(format!("it lists the ends of {ended} lanes of {marked}; capture again"));
+    match manifest.hash() == manifest.settings_hash {
+        true => Ok(()),
+        false => {
+            Err("its recording or drawing was altered: their hash differs; capture again".into())
+        }
     }
-    if settings.hash() == manifest.settings_hash {
-        return Ok(());
-    }
-    match drawn_at_hz(manifest) {
-        Some(hz) if hz != settings.tick_hz.hz().round() as u64 => Err(format!(
-            "it says {} Hz, but at {} frames per second its frames are those of {hz} Hz: another tick rate \
-             is another run; capture again",
-            settings.tick_hz, settings.fps
-        )),
-        _ => Err("its settings were altered: their hash differs; capture again".into()),
-    }
-}
-
-/// Returns the tick rate in Hz that follows from the tick and the time of the last frame, on the assumption that the
-/// rate never changes.
-fn drawn_at_hz(manifest: &Manifest) -> Option<u64> {
-    let last = manifest.frames.len().checked_sub(1)?;
-    let FrameEntry { tick, alpha: [numerator, denominator], .. } = manifest.frames[last];
-    let Settings { frames, fps, .. } = manifest.settings;
-    let ns = Schedule { frames, fps: fps.max(1) }.time_ns(u32::try_from(last).ok()?);
-    let ticks = tick as f64 + numerator as f64 / denominator as f64;
-    (ns > 0).then(|| (ticks * 1e9 / ns as f64).round() as u64)
 }

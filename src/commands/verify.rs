@@ -13,6 +13,7 @@ use super::captured::CapturedRun;
 use super::error::Error;
 use super::frame_names::is_of_a_capture;
 use super::help::flowing;
+use super::manifest::FrameEntry;
 use super::output::same_file_path;
 use super::state_log::StateLog;
 use crate::studio::Studio;
@@ -176,11 +177,11 @@ impl CapturedRun {
         (studio, state_log)
     }
 
-    /// Runs the studio to the end without drawing, or to an interrupt, after which it returns `None`.
-    fn run(&self, interrupted: &AtomicBool) -> Option<Repeated> {
+    /// Runs the studio through `frames` without drawing, or to an interrupt, after which it returns `None`.
+    fn run(&self, frames: &[FrameEntry], interrupted: &AtomicBool) -> Option<Repeated> {
         let (mut studio, mut state_log) = self.begin();
         let mut moment = None;
-        for (frame, entry) in (0..).zip(&self.manifest.frames) {
+        for (frame, entry) in (0..).zip(frames) {
             if interrupted.load(Ordering::Relaxed) {
                 return None;
             }

@@ -40,6 +40,8 @@ pub use menu::{Menu, MenuIndex};
 pub use metrics::{METRICS, Metric, Scale, Unit, energy_gained_j, energy_gained_percent, energy_j};
 pub use observations::Observations;
 pub use race::{Journal, Lane, Race, Ticker};
+#[cfg(feature = "cli")]
+pub(crate) use recording::MAX_CHECKS;
 pub(crate) use recording::with_menu_lanes as recording_among;
 pub use recording::{Reached, RecordingError, Replay, text as recording_text};
 pub use session::Session;

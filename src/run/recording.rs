@@ -10,7 +10,7 @@ use crate::scene::{Action, Check, LaneId, LaneSpec, MAX_FILE_BYTES, MIN_SECONDS,
 
 /// Maximum number of checks of a recording, which keeps the file readable. A long run has fewer than one check per
 /// second.
-const MAX_CHECKS: usize = 8_000;
+pub(crate) const MAX_CHECKS: usize = 8_000;
 
 /// The reason why a run cannot be recorded.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]

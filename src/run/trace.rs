@@ -1,7 +1,6 @@
 //! The rows of a run, with every coordinate of every body of the truth and of each lane, tick by tick.
 
 use std::convert::Infallible;
-use std::sync::Arc;
 
 use csv::ByteRecord;
 
@@ -85,8 +84,11 @@ impl Made {
 
     /// Creates the rows of a scene or recording through tick `last`.
     pub fn of_scene(scene: Scene, last: u64) -> Self {
-        let scene = Arc::new(scene);
-        let mut session = Session::racing(scene.clone());
+        Self::of_session(Session::racing(scene.into()), last)
+    }
+
+    /// Creates the rows of a session from its present tick through tick `last`.
+    pub fn of_session(mut session: Session, last: u64) -> Self {
         let mut has_begun = false;
         Self::new(move || {
             if std::mem::replace(&mut has_begun, true) {
@@ -95,7 +97,7 @@ impl Made {
                 }
                 session.tick(&mut ());
             }
-            Some(present(session.race(), &scene))
+            Some(present(session.race(), session.scene()))
         })
     }
 }

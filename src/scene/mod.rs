@@ -58,8 +58,6 @@ pub use nearest::nearest;
 pub(crate) use outline::Thread;
 pub use outline::{Mark, Outline};
 pub use own::is_rule;
-#[cfg(feature = "cli")]
-pub(crate) use own::own;
 pub(crate) use own::own_table;
 pub use refusal::Refusal;
 pub use time_scale::TimeScale;

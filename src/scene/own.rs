@@ -78,11 +78,7 @@ pub fn is_rule(bytes: &[u8]) -> bool {
 ///
 /// # Errors
 /// Fails with the first fault.
-pub(crate) fn own(
-    id: &str,
-    text: &str,
-    fps: Option<TickRate>,
-) -> Result<&'static Method, ExpressionFault> {
+fn own(id: &str, text: &str, fps: Option<TickRate>) -> Result<&'static Method, ExpressionFault> {
     match fps {
         Some(fps) => own_rule(id, text, fps),
         None => own_method(id, text),

@@ -1,4 +1,4 @@
-//! Sources of the rows to compare: a table, a run, or the states in a manifest.
+//! Sources of the rows to compare: a table, or a run of a scene, a recording or a capture.
 
 use std::cell::OnceCell;
 use std::io::{self, BufRead, BufReader, Read};
@@ -10,11 +10,10 @@ use csv::ByteRecord;
 
 use crate::commands::captured::{CapturedRun, read_run};
 use crate::commands::error::Error;
-use crate::commands::manifest::Mark;
 use crate::commands::{scene_file, verify};
 use crate::regular_file::{self, Unreadable};
 use crate::run::diff::{NotComparable, Records, is_header};
-use crate::run::trace::{Made, row};
+use crate::run::trace::Made;
 use crate::scene::clip_list;
 use crate::table::{
     BUFFER_BYTES, Heading, MAX_ROW_BYTES, Reading, TableError, TableFault, TableOptions,
@@ -332,25 +331,9 @@ fn of_scene(path: &Path) -> Result<Made, Error> {
     Ok(Made::of_scene(scene, last))
 }
 
-/// Returns the run whose states are in the manifest of the capture in `dir`.
+/// Returns the run of the capture in `dir`, made again, up to its last state.
 fn of_capture(dir: &Path) -> Result<Made, Error> {
-    let CapturedRun { manifest, experiment, .. } = read_run(dir)?;
-    let studio = experiment.studio();
-    let tick_s = manifest.settings.tick_hz.step_s();
-    let mut marks = manifest.marks.into_iter();
-    Ok(Made::new(move || {
-        let Mark { tick, lanes } = marks.next()?;
-        let (t, tick) = (format!("{:?}", tick as f64 * tick_s), tick.to_string());
-        let mut rows = Vec::new();
-        for ((number, mark), entrant) in (1..).zip(lanes).zip(studio.race().entrants()) {
-            let at = [&tick, &t, &format!("{number}"), entrant.spec.method.id];
-            let bodies = entrant.lane.bodies().iter().zip(&studio.scene().bodies);
-            for ((body, named), (q, v)) in bodies.zip(mark.q.iter().zip(&mark.v)) {
-                for (coordinate, values) in body.coordinates().iter().zip(q.iter().zip(v)) {
-                    rows.push(row(at, &named.name, &coordinate.name, [*values.0, *values.1]));
-                }
-            }
-        }
-        Some(rows)
-    }))
+    let (CapturedRun { experiment, checks, .. }, _) = read_run(dir)?;
+    let last = checks.last().map_or(0, |check| check.tick);
+    Ok(Made::of_session(experiment.studio().run().session().clone(), last))
 }

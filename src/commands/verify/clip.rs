@@ -20,7 +20,7 @@ use crate::commands::error::PlaceOf;
 use crate::commands::frame_folder::{FolderPolicy, FrameFolder};
 use crate::commands::frame_names::{frame_number, in_the_way, is_pending};
 use crate::commands::interrupt::watch_for_interrupt;
-use crate::commands::manifest::{FILE_NAME, Manifest};
+use crate::commands::manifest::{FILE_NAME, Manifest, fingerprint};
 use crate::commands::output::DirectoryLock;
 use crate::commands::scene_file;
 use crate::commands::terminal::print_status;
@@ -30,16 +30,16 @@ use crate::sim::number::counted;
 pub(super) fn judge(args: &VerifyArgs) -> Result<Report, Error> {
     let dir = &args.dir;
     let _lock = lock(dir).map_err(unjudged(dir))?;
-    let rerun = read_run(dir)?;
-    let Manifest { settings, complete, frames, .. } = &rerun.manifest;
+    let (rerun, manifest) = read_run(dir)?;
+    let Manifest { drawing, complete, frames, .. } = &manifest;
     if !complete {
-        let (drawn, asked) = (frames.len(), settings.frames);
+        let (drawn, asked) = (frames.len(), drawing.frames);
         let how_far = format!("its capture was stopped after {drawn} of {asked} frames");
         return Err(unjudged(dir)(format!("{how_far}; draw all frames with --bless")));
     }
-    let scene = &settings.scene;
-    if scene_file::text_now(Path::new(&scene.name)).is_some_and(|now| now != scene.text) {
-        let name = &scene.name;
+    let name = &drawing.scene;
+    let now = scene_file::text_now(Path::new(name));
+    if now.is_some_and(|now| fingerprint(now.as_bytes()) != drawing.scene_hash) {
         print_status(&format!(
             "{name} has changed since the capture; verify runs the captured scene"
         ));
@@ -47,12 +47,12 @@ pub(super) fn judge(args: &VerifyArgs) -> Result<Report, Error> {
     #[cfg(feature = "view")]
     let redrawn = match args.physics_only {
         true => Ok(None),
-        false => pixels::judge(args, &rerun).map(Some),
+        false => pixels::judge(args, &rerun, &manifest).map(Some),
     };
     #[cfg(not(feature = "view"))]
     let redrawn = Ok::<Option<(Frames, Repeated)>, Error>(None);
-    let run = || rerun.run(&watch_for_interrupt()).ok_or_else(Error::nothing_written);
-    let (frames, repeated, failed) = match redrawn {
+    let run = || rerun.run(frames, &watch_for_interrupt()).ok_or_else(Error::nothing_written);
+    let (redrawn, repeated, failed) = match redrawn {
         Ok(Some((frames, run))) => (Some(frames), run, None),
         Ok(None) => (None, run()?, None),
         // The physics is judged even if the pixels cannot be.
@@ -60,7 +60,7 @@ pub(super) fn judge(args: &VerifyArgs) -> Result<Report, Error> {
         Err(error) => return Err(error),
     };
     let mut report = Report::new(DIRECTORY, dir);
-    add_physics(&mut report, &rerun, repeated)?;
+    add_physics(&mut report, &rerun, &manifest.lanes, repeated)?;
     let physics_differs = report.differing() > 0;
     match failed {
         Some(error) if !physics_differs => return Err(error),
@@ -68,7 +68,7 @@ pub(super) fn judge(args: &VerifyArgs) -> Result<Report, Error> {
         Some(error) => print_status(&error.to_string()),
         None => {}
     }
-    add_pixels(&mut report, &rerun, frames)?;
+    add_pixels(&mut report, &manifest, redrawn)?;
     let what = match (physics_differs, report.differing()) {
         (true, 1) => "physics",
         (true, _) => "physics and pixels",
@@ -85,9 +85,14 @@ pub(super) fn judge(args: &VerifyArgs) -> Result<Report, Error> {
     Ok(report)
 }
 
-fn add_physics(report: &mut Report, rerun: &CapturedRun, repeated: Repeated) -> Result<(), Error> {
+fn add_physics(
+    report: &mut Report,
+    rerun: &CapturedRun,
+    ends: &[Value],
+    repeated: Repeated,
+) -> Result<(), Error> {
     let Repeated { studio, state_log, moment } = repeated;
-    let Some(change) = first_change(&rerun.manifest, &studio, state_log, moment) else {
+    let Some(change) = first_change(rerun, ends, &studio, state_log, moment) else {
         let lanes = counted(studio.race().entrants().len(), "lane");
         print_line(&format!("physics: same to the bit: {lanes} to tick {}", studio.race().tick()))?;
         report.judged("physics", None);
@@ -95,12 +100,8 @@ fn add_physics(report: &mut Report, rerun: &CapturedRun, repeated: Repeated) -> 
         return Ok(());
     };
     let PhysicsChange { tick, lane, what } = change;
-    let marks = match rerun.capture.mark_every {
-        1 => String::new(),
-        every => format!(" (looked at every {every} ticks)"),
-    };
     let of_lane = lane.map_or(String::new(), |(n, method)| format!("lane {n}, {method}, "));
-    let line = format!("differs first at tick {tick}{marks}: {of_lane}{what}");
+    let line = format!("differs first at tick {tick}: {of_lane}{what}");
     print_line(&format!("physics: {line}"))?;
     report.judged("physics", Some(line));
     let (lane, method) = lane.unzip();
@@ -111,7 +112,7 @@ fn add_physics(report: &mut Report, rerun: &CapturedRun, repeated: Repeated) -> 
 
 fn add_pixels(
     report: &mut Report,
-    rerun: &CapturedRun,
+    manifest: &Manifest,
     frames: Option<Frames>,
 ) -> Result<(), Error> {
     let Some(Frames { are_exact, differences }) = frames else {
@@ -119,7 +120,7 @@ fn add_pixels(
         return Ok(());
     };
     let (frames, mut changes) = (differences.len(), Vec::new());
-    for (entry, difference) in rerun.manifest.frames.iter().zip(differences) {
+    for (entry, difference) in manifest.frames.iter().zip(differences) {
         if let Some(what) = &difference {
             print_line(&format!("pixels: {}: {what}", entry.file))?;
             changes.push(json!({ "file": entry.file, "what": what }));
@@ -164,11 +165,11 @@ pub(super) fn bless(dir: &Path) -> Result<(), Error> {
         read_run(dir)?;
     }
     let folder = FrameFolder::inspect(dir, FolderPolicy::Bless, PlaceOf::Blessed)?;
-    let CapturedRun { experiment, capture, .. } = read_run(dir)?;
+    let (CapturedRun { experiment, capture, .. }, manifest) = read_run(dir)?;
     let studio = experiment.studio();
-    let drawn = capture
-        .renderer()
-        .and_then(|renderer| record(&experiment, studio, capture, renderer, folder));
+    let drawn = capture.renderer().and_then(|renderer| {
+        record(&experiment, manifest.drawing, studio, capture, renderer, folder)
+    });
     drawn.map(drop).map_err(|error| error.within("not blessed"))
 }
 

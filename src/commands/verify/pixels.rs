@@ -76,8 +76,12 @@ impl Display for Limits {
 }
 
 /// Draws every frame of the capture again, and compares it with its file. Also returns the repeated run.
-pub(super) fn judge(args: &VerifyArgs, rerun: &CapturedRun) -> Result<(Frames, Repeated), Error> {
-    let CapturedRun { manifest, capture, .. } = rerun;
+pub(super) fn judge(
+    args: &VerifyArgs,
+    rerun: &CapturedRun,
+    manifest: &Manifest,
+) -> Result<(Frames, Repeated), Error> {
+    let capture = &rerun.capture;
     check_differences(args, manifest)?;
     let cannot = |error: Error| error.or_mistake().within("the pixels cannot be judged");
     let mut renderer = capture.renderer().map_err(cannot)?;

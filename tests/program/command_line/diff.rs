@@ -101,7 +101,7 @@ fn log_recording_and_capture_of_one_run_are_the_same() {
     assert_eq!(made.status.code(), Some(0), "{}", stderr(&made));
     let same = run_in(folder.path(), "diff clip clip");
     assert_eq!(same.status.code(), Some(0), "{}", stderr(&same));
-    // A capture has no truth, and marks of the ticks that it drew.
+    // A capture has the ticks that it drew.
     let part = run_in(folder.path(), "diff spring clip --format json");
     let found: Value = serde_json::from_slice(&part.stdout).unwrap();
     assert!(found["first"].is_null() && found["missing"]["a"] == 0, "{found}");
