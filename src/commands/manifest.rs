@@ -177,6 +177,9 @@ pub struct LaneEntry {
     /// Frequency in hertz and damping ratio of the engine's spring setting, if the scene gives them.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub joint: Option<[f64; 2]>,
+    /// Rule for impacts, if it is not the default.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub impact: Option<String>,
 }
 
 /// Our own code or the graphics adapter that drew the frames.

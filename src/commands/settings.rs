@@ -12,6 +12,7 @@ use crate::measure::cloud::{CloudChoice, CloudKind};
 use crate::run::race::Mode;
 use crate::scene::{LaneSpec, MAX_LANES, MAX_SUBSTEPS, Scene, Swing, TOLERANCES, own};
 use crate::sim::integrators::{Method, method};
+use crate::sim::{Impact, impact};
 use crate::studio::{Instrument, Motion, RunCommand, Studio};
 #[cfg(feature = "view")]
 use crate::view::RendererChoice;
@@ -68,6 +69,7 @@ pub(super) fn settings_for_manifest(
         substeps: lane.substeps,
         tolerance: lane.tolerance,
         joint: lane.joint.map(|it| [it.frequency_hz, it.damping_ratio]),
+        impact: (lane.impact != <&Impact>::default()).then(|| lane.impact.id.to_owned()),
     };
     let own = |method: &&Method| {
         let step = method.own_text()?.to_owned();
@@ -151,7 +153,9 @@ pub(super) fn from_manifest(settings: &Settings) -> Result<(Experiment, CaptureS
         }
         let &LaneEntry { substeps, tolerance, .. } = lane;
         let joint = lane.joint.map(swing);
-        Ok(LaneSpec { method, substeps, tolerance, joint })
+        let known = |id: &str| impact(id).ok_or_else(|| format!("this program has no rule {id:?}"));
+        let impact = lane.impact.as_deref().map_or(Ok(Default::default()), known)?;
+        Ok(LaneSpec { method, substeps, tolerance, joint, impact })
     };
     // The lanes already have the substeps that equal cost gave them.
     scene.equal_cost = false;
