@@ -144,12 +144,10 @@ impl<B: Body, D: Propagator<B> + Clone> Stepper for BodyStepper<B, D> {
         let (body, q) = (&self.placed.body, self.placed.q());
         let kept =
             solver.method().map_or(0, |method| method.numbers_kept(q.len(), body.coupling()));
-        // All fields but the solver may contain vectors.
-        let others = size_of::<Self>() - size_of::<Solver>() + self.propagator.heap_bytes();
-        size_of::<Solver>()
-            + bytes_with_vectors(others, q)
-            + body.system.heap_bytes()
-            + size_of::<f64>() * kept
+        // All fields but the solver and the bounces may contain vectors.
+        let plain = size_of::<Solver>() + size_of::<Bounces>();
+        let others = size_of::<Self>() - plain + self.propagator.heap_bytes();
+        plain + bytes_with_vectors(others, q) + body.system.heap_bytes() + size_of::<f64>() * kept
     }
 
     fn boxed_clone(&self) -> Box<dyn Stepper> {

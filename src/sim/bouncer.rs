@@ -97,10 +97,11 @@ impl<P: Clone, V: Vector> Bouncer<P, V> {
             && let Some(contact) = Contact::beyond(&body.system, t, y)
             && contact.speed(y) < 0.0
         {
-            let back = -contact.wall.restitution * contact.speed(y);
+            let speed = contact.speed(y);
+            let back = -contact.wall.restitution * speed;
             let gained = contact.push(body, t, y) * h;
             contact.set_speed(back - gained, y);
-            self.land(body, t, y);
+            self.land(body, t, y, [speed, back]);
             self.bounces.add(contact.height(y));
         }
         let is_within = matches!(self.rule, Rule::Within(_) | Rule::Swept);
@@ -135,22 +136,25 @@ impl<P: Clone, V: Vector> Bouncer<P, V> {
                     }
                 }
                 contact.set_speed(back, y);
-                self.land(body, t + h, y);
+                self.land(body, t + h, y, [speed, back]);
+                self.bounces.beyond = -height;
             }
             // A soft floor is entered at the end of the step.
-            Rule::Penalty if contact.height(&self.from) >= 0.0 => self.bounces.land(t + h),
+            Rule::Penalty if contact.height(&self.from) >= 0.0 => {
+                self.bounces.land(t + h, [contact.speed(y), f64::NAN]);
+            }
             Rule::BeforeTick | Rule::Penalty => {}
         }
         Ok(())
     }
 
     /// Records an impact at time `t` (s), after which the method starts anew.
-    fn land<B>(&mut self, body: &Counted<B>, t: f64, y: &StateOf<B>)
+    fn land<B>(&mut self, body: &Counted<B>, t: f64, y: &StateOf<B>, speeds: [f64; 2])
     where
         B: Body<Vector = V>,
         P: Propagator<B>,
     {
-        self.bounces.land(t);
+        self.bounces.land(t, speeds);
         self.inner.restart(t, false, &body.system, y);
     }
 
@@ -168,10 +172,11 @@ impl<P: Clone, V: Vector> Bouncer<P, V> {
         P: Propagator<B>,
     {
         let part = chord(contact.at(&body.system, t).height(&self.from), contact.height(y));
-        let back = -contact.wall.restitution * contact.speed(y);
+        let speed = contact.speed(y);
+        let back = -contact.wall.restitution * speed;
         contact.set_height((back * (h - part * h)).max(0.0), y);
         contact.set_speed(back, y);
-        self.land(body, t + part * h, y);
+        self.land(body, t + part * h, y, [speed, back]);
     }
 
     /// Handles the impacts of a step from `self.from` that ended at `y`, beyond a wall.
@@ -192,10 +197,11 @@ impl<P: Clone, V: Vector> Bouncer<P, V> {
             let part = self.hit(locating, body, [t, left], [begin, end], y)?;
             let (hit_at, rest) = (t + part * left, left - part * left);
             let contact = end.at(&body.system, hit_at);
-            let speed = contact.wall.restitution * contact.speed(y).abs();
+            let before = contact.speed(y);
+            let speed = contact.wall.restitution * before.abs();
             contact.set_height(0.0, y);
             contact.set_speed(speed, y);
-            self.land(body, hit_at, y);
+            self.land(body, hit_at, y, [before, speed]);
             let push = contact.push(body, hit_at, y);
             if push < 0.0 && (2.0 * speed < -push * SHORTEST_FLIGHT_S || impacts == MAX_IMPACTS) {
                 let contact = contact.at(&body.system, hit_at + rest);

@@ -27,6 +27,13 @@ pub struct Impact {
     pub(super) rule: Rule,
 }
 
+impl Impact {
+    /// Whether the rule finds the time of an impact within the step; others handle it at the end of the step.
+    pub fn finds_the_time(&self) -> bool {
+        matches!(self.rule, Rule::Within(_) | Rule::Swept)
+    }
+}
+
 impl PartialEq for Impact {
     fn eq(&self, other: &Self) -> bool {
         self.rule == other.rule
@@ -140,6 +147,8 @@ pub struct Bounces {
     pub impacts: u64,
     /// The time in seconds of the last impact, as the rule handled it.
     pub landed_at_s: f64,
+    /// The velocities away from the wall before and after that impact; NaN after it for a soft wall.
+    pub speeds: [f64; 2],
     /// The height of the last completed flight above the lower wall: the vertex of the parabola through its highest
     /// ticks. `None` before the first.
     pub apex: Option<f64>,
@@ -147,17 +156,20 @@ pub struct Bounces {
     pub apex_after: u64,
     /// The deepest that the body was below the lower wall at the end of a tick; 0 or more.
     pub depth: f64,
+    /// How far the body was beyond the wall where the rule met it at the last impact; 0 if it found the impact itself.
+    pub beyond: f64,
     /// The last heights of this flight, newest last, and how many are known.
     heights: [f64; 3],
     known: u8,
 }
 
 impl Bounces {
-    /// Records an impact at time `t` (s), which ends a flight.
-    pub(super) fn land(&mut self, t: f64) {
+    /// Records an impact at time `t` (s), which ends a flight, with the velocities before and after it.
+    pub(super) fn land(&mut self, t: f64, speeds: [f64; 2]) {
         self.impacts += 1;
+        self.speeds = speeds;
         self.landed_at_s = t;
-        self.known = 0;
+        (self.beyond, self.known) = (0.0, 0);
     }
 
     /// Starts the count anew after a change of the body.

@@ -1,11 +1,13 @@
 //! Bounces of a ball: the truth against states of sixty digits, and the rules for impacts against closed forms.
 
 use crate::dice::Dice;
-use regatta::run::{Lane, Race};
+use regatta::measure::Judge;
+use regatta::run::{Lane, METRICS, Race};
 use regatta::scene::{LaneSpec, Scene};
 use regatta::sim::bodies::{Ball, Body, kind};
 use regatta::sim::integrators::{METHODS, method};
 use regatta::sim::{Bounces, IMPACTS, Solver, State, impact, stepper};
+use regatta::studio::{RunCommand, StageCommand, Studio};
 
 const G: f64 = 9.81;
 const H: f64 = 1.0 / 60.0;
@@ -299,4 +301,82 @@ fn faults_of_a_ball_and_its_rules_are_told() {
         let found = fault(lanes, ball);
         assert!(found.contains(wanted), "{wanted} in\n{found}");
     }
+}
+
+fn verdict(scene: &str, method_id: &str, rule: &str) -> String {
+    let scene = Scene::built_in(scene).unwrap();
+    let spec =
+        LaneSpec { impact: impact(rule).unwrap(), ..LaneSpec::plain(method(method_id).unwrap()) };
+    Judge::new(&scene).verdict(spec, scene.tick_hz).to_string()
+}
+
+#[test]
+fn a_verdict_counts_bounces_in_place_of_distances() {
+    for (scene, method, rule, wanted) in [
+        ("perpetual", "velocity-verlet", "clamp", "grows · bounces 36 % too high after 10"),
+        ("perpetual", "velocity-verlet", "mirror", "grows · bounces"),
+        ("perpetual", "semi-implicit-euler", "clamp", "dies away · bounces"),
+        ("perpetual", "semi-implicit-euler", "before-tick", "accurate"),
+        ("perpetual", "rk4", "locate", "accurate · bounces right"),
+        ("ball", "velocity-verlet", "velocity", "dies away · sinks through the floor at"),
+        ("ball", "velocity-verlet", "clamp", "grows · bounces"),
+        ("ball", "rk4", "locate", "accurate · bounces right"),
+        ("pong", "semi-implicit-euler", "mirror", "accurate"),
+        ("pong", "semi-implicit-euler", "clamp", "late after"),
+        ("landing", "semi-implicit-euler", "clamp", "jumps 6."),
+        ("landing", "velocity-verlet", "clamp", "accurate"),
+    ] {
+        let found = verdict(scene, method, rule);
+        assert!(found.contains(wanted), "{scene}, {method}, {rule}: {found}, not {wanted}");
+    }
+}
+
+#[test]
+fn a_ball_that_lands_on_ticks_is_called_lucky() {
+    let head = "title = 'x'\ntick_hz = 60\nseconds = 10\nmethods = ['velocity-verlet']";
+    let text = format!("{head}\nimpact = 'clamp'\n[[ball]]\nheight_m = 10\nrestitution = 1\n");
+    let scene = Scene::parse("x.toml", &text).unwrap();
+    let found = Judge::new(&scene).verdict(scene.lanes[0], scene.tick_hz).to_string();
+    assert!(found.contains("luck: lands on ticks"), "{found}");
+}
+
+#[test]
+fn metrics_of_a_ball_count_measure_and_compare_its_bounces() {
+    let lanes = "[[lane]]\nmethod = 'velocity-verlet'\nimpact = 'clamp'";
+    let mut race = Race::of_scene(&scene(lanes));
+    race.run(90);
+    let of = |id: &str| {
+        let metric = METRICS.iter().find(|metric| metric.id == id).unwrap();
+        let lane = &race.entrants()[0].lane.bodies()[0];
+        (metric.measure)(lane, &race.truth().bodies()[0])
+    };
+    assert_eq!(of("impacts"), Some(2.0));
+    assert_eq!(of("depth"), Some(0.0));
+    let apex = of("apex").unwrap();
+    near(of("apex_error").unwrap(), 100.0 * (apex / 0.64 - 1.0), 1e-9, "apex error");
+    assert!((0.0..60.0).contains(&of("landing_error").unwrap()));
+    let spring = Race::of_scene(&Scene::built_in("spring").unwrap());
+    let lane = &spring.entrants()[0].lane.bodies()[0];
+    for id in ["impacts", "depth", "apex", "apex_error", "landing_error"] {
+        let metric = METRICS.iter().find(|metric| metric.id == id).unwrap();
+        assert_eq!((metric.measure)(lane, &spring.truth().bodies()[0]), None, "{id}");
+    }
+}
+
+#[test]
+fn j_changes_the_rule_of_the_selected_lane_in_flight() {
+    let mut studio = Studio::new(Scene::built_in("ball").unwrap());
+    studio.apply(StageCommand::ToggleRace);
+    studio.apply(StageCommand::Pick(1));
+    (0..40).for_each(|_| studio.tick());
+    let rules = |studio: &Studio| -> Vec<&str> {
+        studio.race().entrants().iter().map(|lane| lane.spec.impact.id).collect()
+    };
+    let before = rules(&studio);
+    assert_eq!(before[1], "clamp");
+    studio.apply(RunCommand::NextImpact);
+    studio.tick();
+    let after = rules(&studio);
+    assert_eq!((after[1], &after[2..]), ("mirror", &before[2..]));
+    assert_eq!(studio.race().entrants()[1].lane.bodies()[0].stepper.bounces().unwrap().impacts, 1);
 }

@@ -288,11 +288,21 @@ impl Body for Ball {
     }
 
     fn bounce(&self, from: &State<f64>, impact: u64) -> Option<[f64; 2]> {
-        if impact == 0 || self.ceiling > 0.0 {
-            return None;
-        }
         let (g, e) = (self.gravity, self.restitution);
         let mut at = [from.q.max(0.0), from.v];
+        if self.ceiling > 0.0 {
+            let to_wall = if from.v > 0.0 { self.ceiling - at[0] } else { at[0] };
+            let way = to_wall + self.ceiling * impact.saturating_sub(1) as f64;
+            return (e == 1.0 && from.v != 0.0).then(|| [way / from.v.abs(), f64::NAN]);
+        }
+        // The drag stops the way up where e^(c t) = 1 + c v/g.
+        let up = |v: f64| match self.drag {
+            0.0 => v / g,
+            drag => libm::log1p(drag * v / g) / drag,
+        };
+        if impact == 0 {
+            return Some([0.0, self.fly(at, up(at[1].max(0.0)))[0]]);
+        }
         if self.drag > 0.0 {
             let mut t = 0.0;
             for _ in 0..impact.min(u64::from(MAX_FLIGHTS)) {
@@ -300,9 +310,7 @@ impl Body for Ball {
                 t += flight;
                 at = [0.0, -e * self.fly(at, flight)[1]];
             }
-            // The drag stops the way up where e^(c t) = 1 + c v/g.
-            let up = libm::log1p(self.drag * at[1] / g) / self.drag;
-            return Some([t, self.fly(at, up)[0]]);
+            return Some([t, self.fly(at, up(at[1]))[0]]);
         }
         let [t1, v1] = self.first(at);
         let n = (impact - 1) as f64;
