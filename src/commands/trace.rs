@@ -64,8 +64,8 @@ pub(super) struct TraceArgs {
     /// Write a row for each impact of a ball in place of the ticks
     ///
     /// With the true ones as lane 0, without those whose flight is shorter than a tick.
-    #[arg(long, conflicts_with_all = ["every", "metrics"])]
-    impacts: bool,
+    #[arg(long = "impacts", conflicts_with_all = ["every", "metrics"])]
+    has_impacts: bool,
 
     /// How to write it: csv or json
     #[arg(long, value_name = "FORMAT", default_value = "csv", hide_possible_values = true)]
@@ -107,7 +107,7 @@ enum TraceOrImpacts<'a> {
 
 impl<'a> TraceOrImpacts<'a> {
     fn begin(args: &'a TraceArgs, studio: &Studio) -> io::Result<Self> {
-        Ok(match args.impacts {
+        Ok(match args.has_impacts {
             true => Self::Impacts(Impacts::begin(args.format, studio)?),
             false => Self::Ticks(Trace::begin(args)?),
         })

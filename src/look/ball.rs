@@ -31,11 +31,6 @@ impl Ball {
         if self.ceiling > 0.0 { DVec2::new(height, aside) } else { DVec2::new(aside, height) }
     }
 
-    /// Returns the height of the ball's centre, if its coordinate is `y`.
-    fn centre(&self, y: f64) -> f64 {
-        if self.ceiling > 0.0 { y } else { y + self.radius() }
-    }
-
     /// Hatches the part of a disc around `centre` that is beyond a wall at `wall`, on its lower (1) or upper (-1) side.
     fn hatch(&self, centre: f64, wall: f64, side: f64, outline: &mut Outline) {
         let (radius, step) = (self.radius(), self.radius() / HATCHES);
@@ -46,7 +41,7 @@ impl Ball {
             if half > 0.0 {
                 let height = wall - side * depth;
                 let [from, to] = [-half, half].map(|aside| self.at(height, aside));
-                outline.marks.push(Mark::Rail { from, to });
+                outline.marks.push(Mark::Hatch { from, to });
             }
             depth += step;
         }
@@ -56,11 +51,12 @@ impl Ball {
 impl BodyPicture for Ball {
     fn draw(&self, q: &[f64], outline: &mut Outline) {
         let half = HALF_FLOOR * self.range();
-        let reach = if self.ceiling > 0.0 { self.radius() } else { 0.0 };
-        let mut walls = vec![(-reach, 1.0)];
-        walls.extend((self.ceiling > 0.0).then_some((self.ceiling + reach, -1.0)));
-        let centre = self.centre(q[0]);
-        outline.marks.push(Mark::Disc { centre: self.at(centre, 0.0), radius: self.radius() });
+        // The coordinate is drawn at the centre, so that the walls are a radius beyond it.
+        let radius = self.radius();
+        let mut walls = vec![(-radius, 1.0)];
+        walls.extend((self.ceiling > 0.0).then_some((self.ceiling + radius, -1.0)));
+        let centre = q[0];
+        outline.marks.push(Mark::Disc { centre: self.at(centre, 0.0), radius });
         for (wall, side) in walls {
             let [from, to] = [-half, half].map(|aside| self.at(wall, aside));
             outline.marks.push(Mark::Wall { from, to });
@@ -70,9 +66,8 @@ impl BodyPicture for Ball {
 
     fn framing(&self) -> Framing {
         let (range, margin) = (self.range(), 1.0 + 2.0 * MARGIN);
-        let centre = self.centre(range) / 2.0;
         let half = self.at(range / 2.0 * margin + self.radius(), HALF_FLOOR * range);
-        Framing::Fixed { centre_m: self.at(centre, 0.0), half_m: half, trail_s: 0.0 }
+        Framing::Fixed { centre_m: self.at(range / 2.0, 0.0), half_m: half, trail_s: 0.0 }
     }
 
     fn describe_motion(&self, q: &[f64], v: &[f64]) -> Option<String> {
@@ -87,11 +82,11 @@ impl BodyPicture for Ball {
     }
 
     fn handles(&self, q: &[f64]) -> Vec<Handle> {
-        vec![Handle { at: self.at(self.centre(q[0]), 0.0), radius: self.radius() }]
+        vec![Handle { at: self.at(q[0], 0.0), radius: self.radius() }]
     }
 
     fn pull(&self, q: &mut [f64], v: &mut [f64], pull: Pull) {
         let along = |to: DVec2| if self.ceiling > 0.0 { to.x } else { to.y };
-        (q[0], v[0]) = (along(pull.to) - self.centre(0.0), along(pull.velocity));
+        (q[0], v[0]) = (along(pull.to), along(pull.velocity));
     }
 }

@@ -102,6 +102,7 @@ impl<P: Clone, V: Vector> Bouncer<P, V> {
             let gained = contact.push(body, t, y) * h;
             contact.set_speed(back - gained, y);
             self.land(body, t, y, [speed, back]);
+            self.bounces.beyond = -contact.height(y);
             self.bounces.add(contact.height(y));
         }
         let is_within = matches!(self.rule, Rule::Within(_) | Rule::Swept);
