@@ -38,10 +38,11 @@ pub(super) struct ExperimentArgs {
     #[arg(hide_possible_values = true)]
     methods: Vec<&'static Method>,
 
-    /// A rule for the impacts of a ball (`regatta list impacts`), or several
+    /// A rule for impacts of a ball, or several
     ///
-    /// Give the option again for each, to race every method under every rule.
+    /// `regatta list impacts` has them. Give the option again for each, to race every method under every rule.
     #[arg(long = "impact", value_name = "ID", value_parser = IMPACT, hide_possible_values = true)]
+    #[arg(hide_short_help = true)]
     impacts: Vec<&'static Impact>,
 
     #[command(flatten)]

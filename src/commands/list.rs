@@ -25,7 +25,7 @@ Examples:
 
 const WHAT: &str = "scenes|methods|impacts|bodies|metrics|policies|engine-loops|traces|keys";
 
-/// List scenes, methods, impacts, bodies, metrics, policies, traces or keys
+/// List scenes, methods, bodies, metrics, policies, traces or keys
 #[derive(Debug, Args)]
 #[command(after_long_help = flowing(EXAMPLES))]
 #[command(override_usage = "regatta list [OPTIONS] <WHAT>")]

@@ -31,7 +31,7 @@ Examples:
   regatta show fixed-linear --as cpp
   regatta show clamp --as csharp          a rule for impacts";
 
-/// Print a method, a game loop or a rule for impacts as code for your game
+/// Print a method or a game loop as code for your game
 #[derive(Debug, Args)]
 #[command(after_long_help = flowing(ABOUT))]
 pub(super) struct ShowArgs {

@@ -8,7 +8,7 @@
 use std::sync::Arc;
 
 use super::amplitude::Trend;
-use super::bounce_finding::follow_bounces;
+use super::by_bounces::follow_bounces;
 use super::by_energy::{EnergyRun, follow_energy};
 use super::change::MotionChange;
 use super::chase_finding::ChaseFinding;

@@ -9,6 +9,7 @@
 mod advice;
 mod amplitude;
 mod bounce_finding;
+mod by_bounces;
 mod by_energy;
 mod change;
 mod chase_finding;

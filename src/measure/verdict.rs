@@ -216,8 +216,8 @@ impl Verdict {
         if let Finding::Compared(comparison) = &self.finding { Some(comparison) } else { None }
     }
 
-    /// Returns the largest error of a coordinate or a velocity, in amplitudes, or that of a bounce, in flights; `None` if there is no comparison over
-    /// the whole horizon.
+    /// Returns the largest error of a coordinate or a velocity, in amplitudes, or that of a bounce, in flights. `None`
+    /// if there is no comparison over the whole horizon.
     pub fn error(&self) -> Option<f64> {
         match &self.finding {
             Finding::Bounced(found) => Some(found.error()),

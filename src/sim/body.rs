@@ -103,9 +103,9 @@ pub trait Body: System<Vector: Vector> + Clone + Send + 'static {
     /// Makes the walls springs, or makes them hard again.
     fn soften(&mut self, _is_soft: bool) {}
 
-    /// Returns the time (s) after the state `from` of the true impact of this number, counted from 1, and the height
-    /// of the flight after it, which is NaN between two walls. Number 0 is `from` itself. `None` if there is no such
-    /// impact, or no closed form.
+    /// Returns the time (s) after the state `from` of the true impact of this number, and the height of the flight
+    /// after it. Impacts count from 1, and number 0 is `from` itself. The height is NaN between two walls. `None` if
+    /// there is no such impact, or no closed form.
     fn bounce(&self, _from: &StateOf<Self>, _impact: u64) -> Option<[f64; 2]> {
         None
     }

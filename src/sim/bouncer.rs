@@ -149,7 +149,7 @@ impl<P: Clone, V: Vector> Bouncer<P, V> {
         Ok(())
     }
 
-    /// Records an impact at time `t` (s), after which the method starts anew.
+    /// Records an impact at time `t` (s), after which the method starts afresh.
     fn land<B>(&mut self, body: &Counted<B>, t: f64, y: &StateOf<B>, speeds: [f64; 2])
     where
         B: Body<Vector = V>,

@@ -172,7 +172,7 @@ impl Bounces {
         (self.beyond, self.known) = (0.0, 0);
     }
 
-    /// Starts the count anew after a change of the body.
+    /// Counts from 0 again, after a change of the body.
     pub(super) fn restart(&mut self) {
         *self = Self { depth: self.depth, ..Self::default() };
     }

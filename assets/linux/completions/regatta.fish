@@ -1,6 +1,6 @@
 # Print an optspec for argparse to handle cmd's options that are independent of any subcommand.
 function __fish_regatta_global_optspecs
-    string join \n scene= k= c= frequency= damping-ratio= mass= method= tick-hz= step= race loop= seconds= record= force theme= renderer= reduced-motion h/help V/version
+    string join \n scene= k= c= frequency= damping-ratio= mass= method= impact= tick-hz= step= race loop= seconds= record= force theme= renderer= reduced-motion h/help V/version
 end
 
 function __fish_regatta_needs_command
@@ -47,6 +47,10 @@ quarter-car\t''
 bouncing-bungee\t''
 lift\t''
 jump\t''
+ball\t''
+perpetual\t''
+pong\t''
+landing\t''
 rope\t''
 cloth\t''
 bridge\t''"
@@ -106,6 +110,18 @@ engine-mujoco-rk4\t''
 engine-godot\t''
 engine-box3d\t''
 held-force\t''"
+complete -c regatta -n "__fish_regatta_needs_command" -l impact -d 'A rule for the impacts of a ball (`regatta list impacts`), or several' -r -f -a "locate\t''
+velocity\t''
+velocity-blind\t''
+clamp\t''
+mirror\t''
+energy\t''
+before-tick\t''
+locate-cubic\t''
+locate-chord\t''
+swept\t''
+swept-step\t''
+penalty\t''"
 complete -c regatta -n "__fish_regatta_needs_command" -l tick-hz -d 'Ticks per second [default: the scene\'s]' -r
 complete -c regatta -n "__fish_regatta_needs_command" -l step -d 'The length of a tick, in place of --tick-hz' -r
 complete -c regatta -n "__fish_regatta_needs_command" -l loop -d 'Open the loop lab on a trace [default: edge]' -r
@@ -132,12 +148,12 @@ complete -c regatta -n "__fish_regatta_needs_command" -f -a "loop" -d 'Measure w
 complete -c regatta -n "__fish_regatta_needs_command" -f -a "identify" -d 'Say which engine or method made a log of a motion'
 complete -c regatta -n "__fish_regatta_needs_command" -f -a "port" -d 'Print settings that make a spring move the same in every engine'
 complete -c regatta -n "__fish_regatta_needs_command" -f -a "rule" -d 'Show how your own lines move at every frame rate'
-complete -c regatta -n "__fish_regatta_needs_command" -f -a "show" -d 'Print a method or a game loop as code for your game'
+complete -c regatta -n "__fish_regatta_needs_command" -f -a "show" -d 'Print a method, a game loop or a rule for impacts as code for your game'
 complete -c regatta -n "__fish_regatta_needs_command" -f -a "fixture" -d 'Write exact states as a test for your own engine'
 complete -c regatta -n "__fish_regatta_needs_command" -f -a "diff" -d 'Say where two runs first differ'
 complete -c regatta -n "__fish_regatta_needs_command" -f -a "link" -d 'Print a run as a link'
 complete -c regatta -n "__fish_regatta_needs_command" -f -a "chapter" -d 'Print the chapter\'s tables, and draw its Figures 7-2 to 7-8'
-complete -c regatta -n "__fish_regatta_needs_command" -f -a "list" -d 'List scenes, methods, bodies, metrics, policies, traces or keys'
+complete -c regatta -n "__fish_regatta_needs_command" -f -a "list" -d 'List scenes, methods, impacts, bodies, metrics, policies, traces or keys'
 complete -c regatta -n "__fish_regatta_needs_command" -f -a "completions" -d 'Print a completion script for a shell'
 complete -c regatta -n "__fish_regatta_needs_command" -f -a "help" -d 'Print this help, help on a command, or a chapter of the manual'
 complete -c regatta -n "__fish_regatta_using_subcommand play" -l scene -d 'A scene or the file of one [default: harbour]' -r -f -a "harbour\t''
@@ -163,6 +179,10 @@ quarter-car\t''
 bouncing-bungee\t''
 lift\t''
 jump\t''
+ball\t''
+perpetual\t''
+pong\t''
+landing\t''
 rope\t''
 cloth\t''
 bridge\t''"
@@ -222,6 +242,18 @@ engine-mujoco-rk4\t''
 engine-godot\t''
 engine-box3d\t''
 held-force\t''"
+complete -c regatta -n "__fish_regatta_using_subcommand play" -l impact -d 'A rule for the impacts of a ball (`regatta list impacts`), or several' -r -f -a "locate\t''
+velocity\t''
+velocity-blind\t''
+clamp\t''
+mirror\t''
+energy\t''
+before-tick\t''
+locate-cubic\t''
+locate-chord\t''
+swept\t''
+swept-step\t''
+penalty\t''"
 complete -c regatta -n "__fish_regatta_using_subcommand play" -l tick-hz -d 'Ticks per second [default: the scene\'s]' -r
 complete -c regatta -n "__fish_regatta_using_subcommand play" -l step -d 'The length of a tick, in place of --tick-hz' -r
 complete -c regatta -n "__fish_regatta_using_subcommand play" -l loop -d 'Open the loop lab on a trace [default: edge]' -r
@@ -259,6 +291,10 @@ quarter-car\t''
 bouncing-bungee\t''
 lift\t''
 jump\t''
+ball\t''
+perpetual\t''
+pong\t''
+landing\t''
 rope\t''
 cloth\t''
 bridge\t''"
@@ -318,6 +354,18 @@ engine-mujoco-rk4\t''
 engine-godot\t''
 engine-box3d\t''
 held-force\t''"
+complete -c regatta -n "__fish_regatta_using_subcommand capture" -l impact -d 'A rule for the impacts of a ball (`regatta list impacts`), or several' -r -f -a "locate\t''
+velocity\t''
+velocity-blind\t''
+clamp\t''
+mirror\t''
+energy\t''
+before-tick\t''
+locate-cubic\t''
+locate-chord\t''
+swept\t''
+swept-step\t''
+penalty\t''"
 complete -c regatta -n "__fish_regatta_using_subcommand capture" -l tick-hz -d 'Ticks per second [default: the scene\'s]' -r
 complete -c regatta -n "__fish_regatta_using_subcommand capture" -l step -d 'The length of a tick, in place of --tick-hz' -r
 complete -c regatta -n "__fish_regatta_using_subcommand capture" -l loop -d 'Show the loop lab over a trace [default: edge]' -r
@@ -386,6 +434,10 @@ quarter-car\t''
 bouncing-bungee\t''
 lift\t''
 jump\t''
+ball\t''
+perpetual\t''
+pong\t''
+landing\t''
 rope\t''
 cloth\t''
 bridge\t''"
@@ -445,6 +497,18 @@ engine-mujoco-rk4\t''
 engine-godot\t''
 engine-box3d\t''
 held-force\t''"
+complete -c regatta -n "__fish_regatta_using_subcommand trace" -l impact -d 'A rule for the impacts of a ball (`regatta list impacts`), or several' -r -f -a "locate\t''
+velocity\t''
+velocity-blind\t''
+clamp\t''
+mirror\t''
+energy\t''
+before-tick\t''
+locate-cubic\t''
+locate-chord\t''
+swept\t''
+swept-step\t''
+penalty\t''"
 complete -c regatta -n "__fish_regatta_using_subcommand trace" -l tick-hz -d 'Ticks per second [default: the scene\'s]' -r
 complete -c regatta -n "__fish_regatta_using_subcommand trace" -l step -d 'The length of a tick, in place of --tick-hz' -r
 complete -c regatta -n "__fish_regatta_using_subcommand trace" -l seconds -d 'Simulated seconds [default: the scene\'s]' -r
@@ -452,6 +516,7 @@ complete -c regatta -n "__fish_regatta_using_subcommand trace" -l every -d 'Writ
 complete -c regatta -n "__fish_regatta_using_subcommand trace" -l format -d 'How to write it: csv or json' -r -f -a "csv\t'Comma-separated values under a header'
 json\t'An array of objects with the same names'"
 complete -c regatta -n "__fish_regatta_using_subcommand trace" -l metrics -d 'Write each metric too (`regatta list metrics`)'
+complete -c regatta -n "__fish_regatta_using_subcommand trace" -l impacts -d 'Write a row for each impact of a ball in place of the ticks'
 complete -c regatta -n "__fish_regatta_using_subcommand trace" -s h -l help -d 'Print help (see more with \'--help\')'
 complete -c regatta -n "__fish_regatta_using_subcommand advise" -l scene -d 'A scene or the file of one [default: harbour]' -r -f -a "harbour\t''
 spring\t''
@@ -476,6 +541,10 @@ quarter-car\t''
 bouncing-bungee\t''
 lift\t''
 jump\t''
+ball\t''
+perpetual\t''
+pong\t''
+landing\t''
 rope\t''
 cloth\t''
 bridge\t''"
@@ -535,6 +604,18 @@ engine-mujoco-rk4\t''
 engine-godot\t''
 engine-box3d\t''
 held-force\t''"
+complete -c regatta -n "__fish_regatta_using_subcommand advise" -l impact -d 'A rule for the impacts of a ball (`regatta list impacts`), or several' -r -f -a "locate\t''
+velocity\t''
+velocity-blind\t''
+clamp\t''
+mirror\t''
+energy\t''
+before-tick\t''
+locate-cubic\t''
+locate-chord\t''
+swept\t''
+swept-step\t''
+penalty\t''"
 complete -c regatta -n "__fish_regatta_using_subcommand advise" -l tick-hz -d 'Ticks per second [default: the scene\'s]' -r
 complete -c regatta -n "__fish_regatta_using_subcommand advise" -l step -d 'The length of a tick, in place of --tick-hz' -r
 complete -c regatta -n "__fish_regatta_using_subcommand advise" -l family -d 'Judge only the methods of this family' -r -f -a "explicit\t''
@@ -579,6 +660,10 @@ quarter-car\t''
 bouncing-bungee\t''
 lift\t''
 jump\t''
+ball\t''
+perpetual\t''
+pong\t''
+landing\t''
 rope\t''
 cloth\t''
 bridge\t''"
@@ -638,6 +723,18 @@ engine-mujoco-rk4\t''
 engine-godot\t''
 engine-box3d\t''
 held-force\t''"
+complete -c regatta -n "__fish_regatta_using_subcommand sweep" -l impact -d 'The rule for impacts of every ball (`regatta list impacts`) [default: the scene\'s]' -r -f -a "locate\t''
+velocity\t''
+velocity-blind\t''
+clamp\t''
+mirror\t''
+energy\t''
+before-tick\t''
+locate-cubic\t''
+locate-chord\t''
+swept\t''
+swept-step\t''
+penalty\t''"
 complete -c regatta -n "__fish_regatta_using_subcommand sweep" -l tick-hz -d 'Tick rates in Hz, separated by commas' -r
 complete -c regatta -n "__fish_regatta_using_subcommand sweep" -l step -d 'Lengths of a tick in seconds, in place of --tick-hz' -r
 complete -c regatta -n "__fish_regatta_using_subcommand sweep" -l vary -d 'Values of a parameter: a row for each' -r
@@ -673,6 +770,10 @@ quarter-car\t''
 bouncing-bungee\t''
 lift\t''
 jump\t''
+ball\t''
+perpetual\t''
+pong\t''
+landing\t''
 rope\t''
 cloth\t''
 bridge\t''"
@@ -732,6 +833,18 @@ engine-mujoco-rk4\t''
 engine-godot\t''
 engine-box3d\t''
 held-force\t''"
+complete -c regatta -n "__fish_regatta_using_subcommand cloud" -l impact -d 'A rule for the impacts of a ball (`regatta list impacts`), or several' -r -f -a "locate\t''
+velocity\t''
+velocity-blind\t''
+clamp\t''
+mirror\t''
+energy\t''
+before-tick\t''
+locate-cubic\t''
+locate-chord\t''
+swept\t''
+swept-step\t''
+penalty\t''"
 complete -c regatta -n "__fish_regatta_using_subcommand cloud" -l tick-hz -d 'Ticks per second [default: the scene\'s]' -r
 complete -c regatta -n "__fish_regatta_using_subcommand cloud" -l step -d 'The length of a tick, in place of --tick-hz' -r
 complete -c regatta -n "__fish_regatta_using_subcommand cloud" -l points -d 'Starts, 1 to 1000000000' -r
@@ -888,6 +1001,10 @@ quarter-car\t''
 bouncing-bungee\t''
 lift\t''
 jump\t''
+ball\t''
+perpetual\t''
+pong\t''
+landing\t''
 rope\t''
 cloth\t''
 bridge\t''"
@@ -1107,6 +1224,10 @@ quarter-car\t''
 bouncing-bungee\t''
 lift\t''
 jump\t''
+ball\t''
+perpetual\t''
+pong\t''
+landing\t''
 rope\t''
 cloth\t''
 bridge\t''"
@@ -1166,6 +1287,18 @@ engine-mujoco-rk4\t''
 engine-godot\t''
 engine-box3d\t''
 held-force\t''"
+complete -c regatta -n "__fish_regatta_using_subcommand fixture" -l impact -d 'A rule for the impacts of a ball (`regatta list impacts`), or several' -r -f -a "locate\t''
+velocity\t''
+velocity-blind\t''
+clamp\t''
+mirror\t''
+energy\t''
+before-tick\t''
+locate-cubic\t''
+locate-chord\t''
+swept\t''
+swept-step\t''
+penalty\t''"
 complete -c regatta -n "__fish_regatta_using_subcommand fixture" -l tick-hz -d 'Ticks per second [default: the scene\'s]' -r
 complete -c regatta -n "__fish_regatta_using_subcommand fixture" -l step -d 'The length of a tick, in place of --tick-hz' -r
 complete -c regatta -n "__fish_regatta_using_subcommand fixture" -l seconds -d 'Simulated seconds [default: the scene\'s]' -r

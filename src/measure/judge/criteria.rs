@@ -1,7 +1,8 @@
 //! Whether a lane meets a criterion, from a run that ends as soon as the answer is known.
 
 use super::{Judge, without_truth};
-use crate::measure::bounce_finding::{BounceFinding, follow_bounces};
+use crate::measure::bounce_finding::BounceFinding;
+use crate::measure::by_bounces::follow_bounces;
 use crate::measure::by_energy::follow_energy;
 use crate::measure::change::bounded;
 use crate::measure::criterion::{Criterion, FREQUENCY_TOLERANCE, TOLERANCE, VISIBLE};
