@@ -45,9 +45,9 @@
 //! - **Claims are measured.** Tests hold every field of a [`Method`](sim::integrators::Method) card from both sides,
 //!   with drag and without.
 //! - **One table each** for [methods](sim::integrators::METHODS), [bodies](sim::bodies::BODIES),
-//!   [metrics](run::METRICS), [scenes](scene::SCENES), [keys](studio::KEYS), [stops](studio::guide::STOPS),
-//!   [game loops](loops::POLICIES), [their metrics](loops::PACING_METRICS) and [traces](loops::TRACES). Menus, help and
-//!   tests loop over them.
+//!   [rules for impacts](sim::IMPACTS), [metrics](run::METRICS), [scenes](scene::SCENES), [keys](studio::KEYS),
+//!   [stops](studio::guide::STOPS), [game loops](loops::POLICIES), [their metrics](loops::PACING_METRICS) and
+//!   [traces](loops::TRACES). Menus, help and tests loop over them.
 //!
 //! # Add a thing
 //!
@@ -57,6 +57,8 @@
 //! - **A scene**: a file in `assets/scenes` and its name in [`SCENES`](scene::SCENES).
 //! - **A game loop**: its lines in `assets/loops`, with the claims of its card above them, its source for games beside
 //!   them, and its id in [`POLICIES`](loops::POLICIES).
+//! - **A rule for impacts**: a line of [`IMPACTS`](sim::IMPACTS), its change in `sim/bouncer.rs`, and its source in
+//!   `assets/impacts`.
 //! - **A metric** or **a key**: one entry of its table.
 //!
 //! # In your own game loop
@@ -97,9 +99,10 @@
 //!
 //! # Out of scope
 //!
-//! Collisions and contacts, which would hide the integrator behind the solver; generic scalars, which would bury the
-//! formulas (`commands/sweep/round_off.rs` is the exception); constraints, which a closed body with natural coordinates
-//! does not need.
+//! Contacts among bodies, friction and rotation, which would hide the integrator behind the solver. One body on one
+//! given floor is in: it has no solver, and the rule of its impacts is one visible line. Generic scalars, which would
+//! bury the formulas (`commands/sweep/round_off.rs` is the exception); constraints, which a closed body with natural
+//! coordinates does not need.
 
 // Only `main` exits, and the printers of the commands alone speak to a person.
 #![warn(clippy::exit, clippy::print_stderr, clippy::print_stdout)]

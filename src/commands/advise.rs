@@ -100,7 +100,7 @@ pub(super) struct AdviseArgs {
 fn of_family(scene: &Scene, family: Family) -> Result<Vec<LaneSpec>, Error> {
     let listed = |method| scene.lanes.iter().find(|lane| lane.method == method).copied();
     let fitting = scene.methods_of(family);
-    let specs: Vec<_> = fitting.map(|m| listed(m).unwrap_or(LaneSpec::plain(m))).collect();
+    let specs: Vec<_> = fitting.map(|m| listed(m).unwrap_or(scene.plain_lane(m))).collect();
     if specs.is_empty() {
         let method = METHODS.iter().find(|method| method.family == family);
         scene_file::check_method(scene, method.expect("each family has a method"))?;

@@ -6,13 +6,15 @@ use clap::Args;
 
 use super::error::Error;
 use super::experiment::{Experiment, PathOrName, scene_names};
+use super::id::IMPACT;
 use super::output::Input;
 use super::own_method::METHOD_OR_FILE;
 use super::scene_file;
 use super::spring::SpringArgs;
 use super::tick_rate::TickRateArgs;
 use crate::run::race::{Mode, lanes_that_race};
-use crate::scene::{LaneSpec, SCENES, Scene, SceneGroup};
+use crate::scene::{LaneSpec, MAX_LANES, SCENES, Scene, SceneGroup};
+use crate::sim::Impact;
 use crate::sim::integrators::Method;
 use crate::studio::lineup;
 
@@ -36,6 +38,13 @@ pub(super) struct ExperimentArgs {
     #[arg(hide_possible_values = true)]
     methods: Vec<&'static Method>,
 
+    /// A rule for impacts of a ball, or several
+    ///
+    /// `regatta list impacts` has them. Give the option again for each, to race every method under every rule.
+    #[arg(long = "impact", value_name = "ID", value_parser = IMPACT, hide_possible_values = true)]
+    #[arg(hide_short_help = true)]
+    impacts: Vec<&'static Impact>,
+
     #[command(flatten)]
     tick_rate: TickRateArgs,
 }
@@ -48,6 +57,7 @@ impl ExperimentArgs {
             None => self.read(self.scene())?,
         };
         let (mode, selected) = lineup(&scene, &self.methods, asked);
+        let mode = if self.impacts.len() > 1 { Mode::Race } else { mode };
         Ok(Experiment { scene, text, selected, mode, loop_trace: None })
     }
 
@@ -67,7 +77,20 @@ impl ExperimentArgs {
         let tick_hz = self.tick_rate.tick_rate().unwrap_or(scene.tick_hz);
         let scene = scene.at_tick_hz(tick_hz);
         self.methods.iter().try_for_each(|method| scene_file::check_method(&scene, method))?;
-        Ok(scene.with_methods(&self.methods))
+        let scene = scene.with_methods(&self.methods);
+        if self.impacts.is_empty() {
+            return Ok(scene);
+        }
+        if !scene.bodies.iter().any(|body| body.kind.has_walls) {
+            return Err(Error::mistake("--impact is for scenes with a ball, such as --scene ball"));
+        }
+        let scene = scene.with_impacts(&self.methods, &self.impacts);
+        match scene.lanes.len() {
+            0..=MAX_LANES => Ok(scene),
+            many => Err(Error::mistake(format!(
+                "{many} lanes of methods and rules; name at most {MAX_LANES}"
+            ))),
+        }
     }
 
     /// Returns the `--scene` argument, which is a name or a path. Without the argument, returns the name of the first
@@ -86,6 +109,7 @@ impl ExperimentArgs {
     pub(super) fn or_scene(&self, scene: &Path) -> Self {
         let is_chosen = self.names_a_scene()
             || !self.methods.is_empty()
+            || !self.impacts.is_empty()
             || self.tick_rate.tick_rate().is_some();
         let scene = if is_chosen { self.scene.clone() } else { Some(scene.to_owned()) };
         Self { scene, ..self.clone() }

@@ -10,6 +10,7 @@ use crate::loops::{ENGINES, POLICIES, PolicyCard, TRACES, TraceCard};
 use crate::measure::cloud::{CloudKind, CloudShape};
 use crate::scene::nearest;
 use crate::sim::integrators::{Family, METHODS, Method};
+use crate::sim::{IMPACTS, Impact};
 use crate::studio::Instrument;
 use crate::tools::source_code::Language;
 #[cfg(feature = "view")]
@@ -85,6 +86,11 @@ pub(super) const METHOD: Id<&Method> = Id {
     lists: &["methods"],
     spellings: || METHODS.iter().flat_map(Method::spellings).collect(),
     ..Id::new("method", || METHODS.iter().map(|method| (method.id.into(), method)).collect())
+};
+
+pub(super) const IMPACT: Id<&Impact> = Id {
+    lists: &["impacts"],
+    ..Id::new("rule", || IMPACTS.iter().map(|impact| (impact.id.into(), impact)).collect())
 };
 
 /// The ideal loops, and those of engines and libraries.

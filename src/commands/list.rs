@@ -11,10 +11,10 @@ use super::output::table::{self, Column, TableFormat};
 use crate::loops::{ENGINES, POLICIES, PolicyCard, RefreshRate, TRACES, TraceCard};
 use crate::run::{METRICS, Metric, Scale};
 use crate::scene::{BuiltIn, SCENES, Scene, SceneKey, scene_tables};
-use crate::sim::BodyClass;
 use crate::sim::bodies::{BODIES, Body, Coordinate, Kind, Net, Parameter, stepped_kinds};
 use crate::sim::integrators::{FreeSpin, METHODS, Method, SpinMap};
 use crate::sim::law::{UNITS, functions, operators, values};
+use crate::sim::{BodyClass, IMPACTS, Impact};
 use crate::studio::{Binding, KEYS};
 
 const EXAMPLES: &str = "\
@@ -23,7 +23,7 @@ Examples:
   regatta list bodies                  the tables and keys of a scene file
   regatta list methods --format json   with everything on a method's card";
 
-const WHAT: &str = "scenes|methods|bodies|metrics|policies|engine-loops|traces|keys";
+const WHAT: &str = "scenes|methods|impacts|bodies|metrics|policies|engine-loops|traces|keys";
 
 /// List scenes, methods, bodies, metrics, policies, traces or keys
 #[derive(Debug, Args)]
@@ -45,6 +45,8 @@ enum Listing {
     Scenes,
     /// The integrators, for `--method` and for scene files
     Methods,
+    /// The rules for impacts of a ball, for `--impact` and for scene files
+    Impacts,
     /// The bodies, and their keys in a scene file
     Bodies,
     /// The metrics that `trace --metrics` writes
@@ -72,6 +74,7 @@ pub(super) fn run(args: &ListArgs) -> Result<(), Error> {
     let listing = match args.what {
         Listing::Scenes => scenes(args.format),
         Listing::Methods => write(METHOD, METHODS, args.format),
+        Listing::Impacts => write(IMPACT, IMPACTS, args.format),
         Listing::Bodies if args.format == TableFormat::Text => bodies_with_keys(),
         Listing::Bodies => write(BODY, &BODIES, args.format),
         Listing::Metrics => write(METRIC, METRICS, args.format),
@@ -235,6 +238,12 @@ const METHOD: &[Column<Method>] = &[
     }),
     Column::shown("about", "ABOUT", |method| json!(method.about)),
     Column::new("source", |method| json!(method.source)),
+];
+
+const IMPACT: &[Column<Impact>] = &[
+    Column::shown("id", "ID", |impact| json!(impact.id)),
+    Column::shown("kappa", "KAPPA", |impact| json!(impact.kappa)),
+    Column::shown("about", "ABOUT", |impact| json!(impact.about)),
 ];
 
 const BODY: &[Column<Arc<Kind>>] = &[

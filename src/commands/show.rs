@@ -10,7 +10,8 @@ use super::own_method::OrStepFile;
 use super::terminal::print_status;
 use crate::loops::PolicyCard;
 use crate::sim::integrators::{METHODS, Method};
-use crate::tools::source_code::{Language, Precision, source_code, step_lines};
+use crate::sim::{IMPACTS, Impact};
+use crate::tools::source_code::{Language, Precision, impact_code, source_code, step_lines};
 
 const ABOUT: &str = "\
 A method of your own is a file of the lines of its step: see `regatta help step`. The comment has its
@@ -27,13 +28,14 @@ Examples:
   regatta show bdf2 --as c > bdf2.h
   regatta show my.step --as cpp
   regatta show bdf2 --as step > my-bdf2.step
-  regatta show fixed-linear --as cpp";
+  regatta show fixed-linear --as cpp
+  regatta show clamp --as csharp          a rule for impacts";
 
 /// Print a method or a game loop as code for your game
 #[derive(Debug, Args)]
 #[command(after_long_help = flowing(ABOUT))]
 pub(super) struct ShowArgs {
-    /// A method, by its id or another name, or a game loop
+    /// A method, by its id or another name, a game loop, or a rule for impacts
     ///
     /// `regatta list methods` and `regatta list policies` have them. A file that ends in .step is a method of your own,
     /// one that ends in .loop a loop.
@@ -53,7 +55,7 @@ pub(super) struct ShowArgs {
     float: bool,
 }
 
-/// The item to show, which is a method or a game loop.
+/// The item to show.
 #[derive(Clone, Copy, Debug)]
 enum ShownItem {
     Method {
@@ -62,6 +64,7 @@ enum ShownItem {
         alias: Option<&'static str>,
     },
     Loop(&'static PolicyCard),
+    Impact(&'static Impact),
 }
 
 /// Parser for the ids of `SHOWN_ITEM`, or for the path of a `.step` or `.loop` file.
@@ -73,8 +76,8 @@ const ITEM_OR_FILE: OrStepFile<ShownItem> = OrStepFile {
 
 /// Parser for the id of a method, one of its other ids, or the id of a game loop.
 const SHOWN_ITEM: Id<ShownItem> = Id {
-    thing: "method or policy",
-    lists: &["methods", "policies"],
+    thing: "method, policy or rule",
+    lists: &["methods", "policies", "impacts"],
     all: || {
         let own = METHODS.iter().map(|it| (it.id, ShownItem::Method { method: it, alias: None }));
         let others = METHODS.iter().flat_map(|method| {
@@ -83,7 +86,8 @@ const SHOWN_ITEM: Id<ShownItem> = Id {
         });
         let methods = own.chain(others).map(|(id, asked)| (id.to_owned(), asked));
         let loops = (LOOP.all)().into_iter().map(|(id, card)| (id, ShownItem::Loop(card)));
-        methods.chain(loops).collect()
+        let impacts = IMPACTS.iter().map(|it| (it.id.to_owned(), ShownItem::Impact(it)));
+        methods.chain(loops).chain(impacts).collect()
     },
     spellings: || [(METHOD.spellings)(), (LOOP.spellings)()].concat(),
 };
@@ -126,12 +130,20 @@ impl CodeLanguage {
 pub(super) fn run(args: &ShowArgs) -> Result<(), Error> {
     let (method, alias) = match args.asked {
         ShownItem::Method { method, alias } => (method, alias),
-        ShownItem::Loop(_) if args.float => {
+        ShownItem::Loop(_) | ShownItem::Impact(_) if args.float => {
             return Err(Error::mistake(
-                "--float is for methods; a loop has no precision to choose",
+                "--float is for methods; a loop or a rule has no precision to choose",
             ));
         }
         ShownItem::Loop(card) => return print(snippet(card, args.language)?),
+        ShownItem::Impact(impact) => {
+            let language = match args.language {
+                CodeLanguage::Of(language) => language,
+                CodeLanguage::Cpp => Language::C,
+                CodeLanguage::Step => return print(impact.code),
+            };
+            return print(&impact_code(impact, language).map_err(Error::mistake)?);
+        }
     };
     let language = match args.language {
         CodeLanguage::Of(language) => language,

@@ -11,6 +11,7 @@ use super::error::Error;
 use super::experiment::{PathOrName, scene_names, some_seconds};
 use super::file_names::{check_picture_name, row_format};
 use super::help::flowing;
+use super::id::IMPACT;
 use super::interrupt::watch_for_interrupt;
 use super::output::table::{Column, RowFormat, write_rows};
 use super::output::{Destination, STDOUT};
@@ -20,6 +21,7 @@ use super::spring::SpringArgs;
 use super::tick_rate::TickRatesArgs;
 use crate::atomic_file::IfExists;
 use crate::scene::{SCENES, Scene, SceneBody};
+use crate::sim::Impact;
 use crate::sim::bodies::incompatibility;
 use crate::sim::integrators::{METHODS, Method};
 
@@ -74,6 +76,10 @@ pub(super) struct SweepArgs {
     #[arg(long = "method", value_name = "ID|FILE", value_parser = METHOD_OR_FILE)]
     #[arg(hide_possible_values = true)]
     methods: Vec<&'static Method>,
+
+    /// The rule for impacts of every ball (`regatta list impacts`) [default: the scene's]
+    #[arg(long, value_name = "ID", value_parser = IMPACT, hide_possible_values = true)]
+    impact: Option<&'static Impact>,
 
     #[command(flatten)]
     tick_rates: TickRatesArgs,
@@ -185,6 +191,10 @@ impl SweepArgs {
             if scenes.iter().all(|(other, _)| *other != name) {
                 scenes.push((name, scene_file::load(&path)?.0));
             }
+        }
+        if let Some(impact) = self.impact {
+            let lanes = scenes.iter_mut().flat_map(|(_, scene)| &mut scene.lanes);
+            lanes.for_each(|lane| lane.impact = impact);
         }
         let asked = |method: &&Method| match &self.methods[..] {
             [] => method.is_for_games() || method.rule_fps().is_some(),

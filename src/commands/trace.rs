@@ -18,6 +18,10 @@ use crate::scene::SceneBody;
 use crate::sim::bodies::Truth;
 use crate::studio::Studio;
 
+use impacts::Impacts;
+
+mod impacts;
+
 const EXAMPLES: &str = "\
 One row for each tick, lane, body and coordinate:
   tick,t,lane,method,body,coordinate,q,v
@@ -29,7 +33,8 @@ its id as coordinate, its value as q, and v empty.
 
 Examples:
   regatta trace --scene ship --method explicit-euler --seconds 8.5
-  regatta trace --scene my.toml --method rk4 > run.csv";
+  regatta trace --scene my.toml --method rk4 > run.csv
+  regatta trace --scene ball --impacts     n,lane,method,impact,t,speed_before,speed_after,apex_after,body";
 
 /// Write the exact motion and every method's, tick by tick
 ///
@@ -56,6 +61,12 @@ pub(super) struct TraceArgs {
     #[arg(long)]
     metrics: bool,
 
+    /// Write a row for each impact of a ball in place of the ticks
+    ///
+    /// With the true ones as lane 0, without those whose flight is shorter than a tick.
+    #[arg(long = "impacts", conflicts_with_all = ["every", "metrics"])]
+    has_impacts: bool,
+
     /// How to write it: csv or json
     #[arg(long, value_name = "FORMAT", default_value = "csv", hide_possible_values = true)]
     format: RowFormat,
@@ -69,8 +80,8 @@ pub(super) fn run(args: &TraceArgs) -> Result<(), Error> {
     let mut halts = Halts::default();
 
     let at_start: Vec<Truth> = studio.race().truth().bodies().iter().map(LaneBody::truth).collect();
-    let mut trace = Trace::begin(args)?;
-    trace.tick(&studio)?;
+    let mut trace = TraceOrImpacts::begin(args, &studio)?;
+    trace.tick(&studio, false)?;
     let last = studio.race().nearest_tick(seconds);
     let mut reached = vec![TruthAccuracy::default(); experiment.scene.bodies.len()];
     while studio.race().tick() < last {
@@ -79,16 +90,45 @@ pub(super) fn run(args: &TraceArgs) -> Result<(), Error> {
             .iter_mut()
             .zip(studio.race().truth().bodies())
             .for_each(|(it, truth)| it.note(truth));
-        trace.tick(&studio)?;
+        trace.tick(&studio, studio.race().tick() == last)?;
         halts.note(&studio);
     }
-    trace.rows.end()?.close()?;
+    trace.end()?.close()?;
     print_accuracy(&experiment.scene.bodies, &at_start, &reached, studio.race().truth());
     halts.lines.iter().for_each(|line| print_status(line));
     Ok(())
 }
 
-/// The table that is being written.
+/// The table that is being written: of ticks, or of impacts.
+enum TraceOrImpacts<'a> {
+    Ticks(Trace<'a>),
+    Impacts(Impacts),
+}
+
+impl<'a> TraceOrImpacts<'a> {
+    fn begin(args: &'a TraceArgs, studio: &Studio) -> io::Result<Self> {
+        Ok(match args.has_impacts {
+            true => Self::Impacts(Impacts::begin(args.format, studio)?),
+            false => Self::Ticks(Trace::begin(args)?),
+        })
+    }
+
+    fn tick(&mut self, studio: &Studio, is_end: bool) -> io::Result<()> {
+        match self {
+            Self::Ticks(trace) => trace.tick(studio),
+            Self::Impacts(impacts) => impacts.tick(studio, is_end),
+        }
+    }
+
+    fn end(self) -> io::Result<Output> {
+        match self {
+            Self::Ticks(trace) => trace.rows.end(),
+            Self::Impacts(impacts) => impacts.end(),
+        }
+    }
+}
+
+/// The table of ticks that is being written.
 struct Trace<'a> {
     rows: RowWriter<Output>,
     args: &'a TraceArgs,

@@ -9,9 +9,10 @@ use crate::run::race::LaneBody;
 use crate::scene::{Mark, Outline};
 use crate::sim::Vector;
 use crate::sim::bodies::{
-    Body, Chain, Custom, Follow, Helm, Kind, Law, Net, Orbit, Origin, Pendulum, Ship, Spring,
+    Ball, Body, Chain, Custom, Follow, Helm, Kind, Law, Net, Orbit, Origin, Pendulum, Ship, Spring,
 };
 
+mod ball;
 mod beads;
 mod chain;
 mod custom;
@@ -131,6 +132,7 @@ static LOOKS: &[LookCard] = &[
     LookCard::plain::<Orbit>("orbit"),
     LookCard::plain::<Helm>("helm"),
     LookCard::plain::<Follow>("follow"),
+    LookCard::plain::<Ball>("ball"),
 ];
 
 /// The looks of kinds outside the table of built-in kinds.

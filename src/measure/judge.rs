@@ -8,6 +8,7 @@
 use std::sync::Arc;
 
 use super::amplitude::Trend;
+use super::by_bounces::follow_bounces;
 use super::by_energy::{EnergyRun, follow_energy};
 use super::change::MotionChange;
 use super::chase_finding::ChaseFinding;
@@ -181,6 +182,9 @@ impl Judge {
                 ),
             };
         }
+        if truth.bounces() {
+            return self.by_bounces(body, spec, tick_hz, max_work).await;
+        }
         let found = Modes::of(truth, spec, tick_hz).await;
         let max_work = if found.is_ok() { max_work } else { 0 };
         let by_modes = found
@@ -250,6 +254,24 @@ impl Judge {
         let chase = ChaseFinding::of(truth, spec, tick_hz, run.chase.as_ref());
         let verdict = self.verdict_with(body, finding, long_term);
         Verdict { chase, evaluations: run.evaluations, seconds: run.seconds, ..verdict }
+    }
+
+    /// Returns the verdict on a body with walls.
+    async fn by_bounces(
+        &self,
+        body: usize,
+        spec: LaneSpec,
+        tick_hz: TickRate,
+        max_work: u64,
+    ) -> Verdict {
+        let run = follow_bounces(&self.truths[body], spec, tick_hz, max_work).await;
+        let finding = match (run.failure, self.not_judged(tick_hz, run.is_too_much)) {
+            (Some(failure), _) => Finding::Failed { failure, by_energy: None },
+            (None, Some(why)) => Finding::NotJudged(why),
+            (None, None) => Finding::Bounced(run.finding),
+        };
+        let verdict = self.verdict_with(body, finding, LongTerm::default());
+        Verdict { evaluations: run.evaluations, seconds: run.seconds, ..verdict }
     }
 
     /// Returns the verdict on a body without a reference solution.

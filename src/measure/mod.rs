@@ -8,6 +8,8 @@
 
 mod advice;
 mod amplitude;
+mod bounce_finding;
+mod by_bounces;
 mod by_energy;
 mod change;
 mod chase_finding;
@@ -41,6 +43,7 @@ pub use advice::{
     criterion_to_take, ranked, recommended,
 };
 pub use amplitude::{Measure, Trend};
+pub use bounce_finding::BounceFinding;
 pub use chase_finding::ChaseFinding;
 pub use criterion::{CRITERIA, Criterion, FREQUENCY_TOLERANCE, TOLERANCE, VISIBLE};
 pub use energy_finding::EnergyFinding;

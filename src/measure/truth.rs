@@ -161,6 +161,11 @@ impl BodyTruth {
         body
     }
 
+    /// Whether the body is judged by its bounces, up to a first input.
+    pub(super) fn bounces(&self) -> bool {
+        self.body.kind.has_walls && self.failure.is_none()
+    }
+
     pub(super) fn coordinates(&self) -> Coordinates {
         self.body.kind.coordinates(&self.body.values)
     }

@@ -1,6 +1,7 @@
 //! The verdict on a method on a scene, with its outcome and the numbers behind the outcome.
 
 use super::amplitude::{Measure, Trend};
+use super::bounce_finding::BounceFinding;
 use super::chase_finding::ChaseFinding;
 use super::criterion::TOLERANCE;
 use super::energy_finding::EnergyFinding;
@@ -72,6 +73,8 @@ pub enum NotJudged {
 pub enum Finding {
     /// A comparison with the truth over the horizon.
     Compared(Comparison),
+    /// The bounces of a body with walls.
+    Bounced(BounceFinding),
     /// Findings from the energy, because a reference solution would take too much work.
     ByEnergy(EnergyFinding),
     /// The run ended early.
@@ -200,6 +203,7 @@ impl Verdict {
     pub fn outcome(&self) -> Outcome {
         match &self.finding {
             Finding::Compared(comparison) => comparison.outcome(),
+            Finding::Bounced(found) => found.outcome(),
             Finding::ByEnergy(found) => found.outcome(),
             Finding::Failed { failure, .. } => failure.outcome(),
             Finding::NoTruth(_) => Outcome::NoTruth,
@@ -212,10 +216,13 @@ impl Verdict {
         if let Finding::Compared(comparison) = &self.finding { Some(comparison) } else { None }
     }
 
-    /// Returns the largest error of a coordinate or a velocity, in amplitudes; `None` if there is no comparison over
-    /// the whole horizon.
+    /// Returns the largest error of a coordinate or a velocity, in amplitudes, or that of a bounce, in flights. `None`
+    /// if there is no comparison over the whole horizon.
     pub fn error(&self) -> Option<f64> {
-        self.comparison().map(|comparison| comparison.error)
+        match &self.finding {
+            Finding::Bounced(found) => Some(found.error()),
+            _ => self.comparison().map(|comparison| comparison.error),
+        }
     }
 
     /// Returns why and when the run ended early, if it did.

@@ -234,6 +234,69 @@ pub const METRICS: &[Metric] = &[
         about: "furthest that this body went beyond a target that stays, in percent of the way, since the last input or placement",
         measure: |lane, _| lane.chase().map(Chase::overshoot_percent),
     },
+    Metric {
+        id: "apex",
+        name: "apex",
+        absent: "No apex: this body meets no wall, or has not yet reached one.",
+        unit: Unit::Coordinate,
+        scale: Scale::Linear,
+        is_comparison: false,
+        is_of_energy: false,
+        about: "height of the last flight above the floor, on the parabola through its highest ticks",
+        measure: |lane, _| lane.stepper.bounces()?.apex,
+    },
+    Metric {
+        id: "apex_error",
+        name: "apex error",
+        absent: "No apex to compare: this body meets no floor, or has not yet bounced.",
+        unit: Unit::Percent,
+        scale: Scale::Linear,
+        is_comparison: true,
+        is_of_energy: false,
+        about: "height of the last flight above that of the same flight in truth, in percent of it",
+        measure: |lane, truth| {
+            let bounces = *unless_halted(lane, truth)?[0].stepper.bounces()?;
+            let [_, exact] = truth.stepper.true_bounce(bounces.apex_after)?;
+            if_finite(100.0 * (bounces.apex? - exact) / exact)
+        },
+    },
+    Metric {
+        id: "landing_error",
+        name: "landing error",
+        absent: "No bounce: this body meets no wall, or has not yet.",
+        unit: Unit::Milliseconds,
+        scale: Scale::Linear,
+        is_comparison: true,
+        is_of_energy: false,
+        about: "time of the last impact, as its rule handled it, after that of the same impact in truth",
+        measure: |lane, truth| {
+            let bounces = *unless_halted(lane, truth)?[0].stepper.bounces()?;
+            let [exact, _] = truth.stepper.true_bounce(bounces.impacts)?;
+            if_finite(1e3 * (bounces.landed_at_s - exact)).filter(|_| bounces.impacts > 0)
+        },
+    },
+    Metric {
+        id: "depth",
+        name: "depth",
+        absent: "No depth: this body meets no floor.",
+        unit: Unit::Coordinate,
+        scale: Scale::Linear,
+        is_comparison: false,
+        is_of_energy: false,
+        about: "deepest below the floor at a tick since the start",
+        measure: |lane, _| Some(lane.stepper.bounces()?.depth),
+    },
+    Metric {
+        id: "impacts",
+        name: "impacts",
+        absent: "No bounce: this body meets no wall, or has not yet.",
+        unit: Unit::One,
+        scale: Scale::Linear,
+        is_comparison: false,
+        is_of_energy: false,
+        about: "impacts since the start, or since the last input or placement",
+        measure: |lane, _| Some(lane.stepper.bounces()?.impacts as f64),
+    },
 ];
 
 /// Returns the energy of a body in a lane above that in truth, in percent of the energy that the exact motion

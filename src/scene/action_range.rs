@@ -31,7 +31,7 @@ impl Action {
 impl LaneSpec {
     /// Whether the lane's numbers are in their ranges and its method accepts them.
     pub(crate) fn is_in_range(&self) -> bool {
-        let Self { method, substeps, tolerance, joint } = self;
+        let Self { method, substeps, tolerance, joint, .. } = self;
         let takes = |given: f64| {
             method.tolerance.is_some() && (TOLERANCES.0..=TOLERANCES.1).contains(&given)
         };

@@ -11,8 +11,8 @@ use super::described::{
 use super::errors::{SceneError, position};
 use super::fault::{FaultKind, SceneFault};
 use super::keys::{
-    Key, METHOD, STEP_S, TICK_HZ, list, number, quoted, read_lane_spec, replace_if_read, step_s,
-    tick_hz,
+    IMPACT, Key, METHOD, STEP_S, TICK_HZ, list, number, quoted, read_lane_spec, replace_if_read,
+    step_s, tick_hz,
 };
 use super::nearest::{listed, nearest, offer};
 use super::own::{OWN, read_own};
@@ -23,9 +23,9 @@ use super::{
     CloudKind, LaneSpec, MAX_LANES, MAX_SECONDS, MIN_SECONDS, Scene, USUAL_SECONDS, claim_horizon,
     syntax,
 };
-use crate::sim::TickRate;
 use crate::sim::bodies::{BODIES, Range};
 use crate::sim::integrators::Method;
+use crate::sim::{Impact, TickRate};
 
 /// Name of the table array of lanes.
 pub(super) const LANE: &str = "lane";
@@ -58,10 +58,11 @@ pub(super) const RACE_TABLE: Field =
 pub(super) struct Draft {
     scene: Scene,
     listed: Option<Vec<(Span<usize>, &'static Method)>>,
+    impact: &'static Impact,
 }
 
 /// The keys above the first table.
-pub(super) static TOP: [Key<Draft, Scene>; 10] = [
+pub(super) static TOP: [Key<Draft, Scene>; 11] = [
     Key {
         field: Field::required(
             "title",
@@ -121,6 +122,12 @@ pub(super) static TOP: [Key<Draft, Scene>; 10] = [
             let ids = scene.lanes.iter().map(|spec| quoted(spec.method.id));
             scene.has_plain_lanes().then(|| list(ids))
         },
+    },
+    Key {
+        field: IMPACT,
+        read: |draft, top, field| replace_if_read(&mut draft.impact, top.impact(field)),
+        // Each lane writes its own.
+        write: |_| None,
     },
     Key {
         field: Field::optional(
@@ -234,13 +241,13 @@ pub(super) fn read(name: &str, text: &str) -> Result<(Scene, Vec<SceneError>), V
         own_methods: top.own().to_vec(),
         outdated: None,
     };
-    let mut draft = Draft { scene, listed: None };
+    let mut draft = Draft { scene, listed: None, impact: Default::default() };
     Key::read_all(&TOP, &mut draft, &mut top);
-    let Draft { mut scene, listed: by_name } = draft;
+    let Draft { mut scene, listed: by_name, impact } = draft;
     let mut bodies = read_bodies(&mut top, claim_horizon(scene.seconds, scene.tick_hz));
     check_names(text, &bodies, &mut top);
     name_the_nameless(&mut bodies);
-    scene.lanes = read_lanes(text, &bodies, by_name, &mut top);
+    scene.lanes = read_lanes(text, &bodies, by_name, impact, &mut top);
     check_opening_method(&scene, &mut top);
     if let Some(mut race) = top.table(&RACE_TABLE) {
         Key::read_all(&RACE, &mut scene, &mut race);
@@ -270,11 +277,14 @@ fn read_lanes(
     text: &str,
     bodies: &[BodyDraft],
     listed: Option<Vec<(Span<usize>, &'static Method)>>,
+    impact: &'static Impact,
     top: &mut Table<'_>,
 ) -> Vec<LaneSpec> {
+    check_impact(top, bodies);
     let is_listed = listed.is_some();
     let listed = listed.into_iter().flatten();
-    let mut lanes: Vec<_> = listed.map(|(span, method)| (span, LaneSpec::plain(method))).collect();
+    let plain = |method| LaneSpec { impact, ..LaneSpec::plain(method) };
+    let mut lanes: Vec<_> = listed.map(|(span, method)| (span, plain(method))).collect();
 
     let rows = top.rows(LANE);
     if let (true, Some(row)) = (is_listed, rows.first()) {
@@ -288,7 +298,8 @@ fn read_lanes(
     let is_given = is_listed || !rows.is_empty();
     for mut row in rows.into_iter().take(MAX_LANES) {
         let span = row.span(METHOD.key);
-        lanes.extend(read_lane_spec(&mut row).map(|spec| (span, spec)));
+        check_impact(&mut row, bodies);
+        lanes.extend(read_lane_spec(&mut row, impact).map(|spec| (span, spec)));
         top.add_faults_of(row);
     }
 
@@ -307,15 +318,25 @@ fn read_lanes(
     if is_given {
         return lanes.into_iter().map(|(_, lane)| lane).collect();
     }
-    every_lane(bodies, top.own())
+    every_lane(bodies, top.own()).into_iter().map(|lane| LaneSpec { impact, ..lane }).collect()
+}
+
+/// Reports a rule for impacts in a scene where nothing has walls.
+fn check_impact(table: &mut Table<'_>, bodies: &[BodyDraft]) {
+    let has_walls = |body: &BodyDraft| body.kind.as_ref().is_none_or(|kind| kind.has_walls);
+    if table.has(IMPACT.key) && !bodies.is_empty() && !bodies.iter().any(has_walls) {
+        let what = format!("`{}` does not apply: no body of this scene meets a wall", IMPACT.key);
+        table.report_fault(table.span(IMPACT.key), what, "remove it, or add a table [[ball]]");
+    }
 }
 
 /// Describes a lane in the words of a message.
 fn described(lane: &LaneSpec) -> String {
-    let LaneSpec { method, substeps, tolerance, joint } = lane;
+    let LaneSpec { method, substeps, tolerance, joint, impact } = lane;
     let within = tolerance.map(|tolerance| format!(" and `tolerance = {tolerance:e}`"));
     let told = joint.map(|joint| format!(" and `joint_hz = {}`", joint.frequency_hz));
-    let beside = [within, told].into_iter().flatten().collect::<String>();
+    let bounces = (*impact != <&Impact>::default()).then(|| format!(" and `impact = {impact:?}`"));
+    let beside = [within, told, bounces].into_iter().flatten().collect::<String>();
     format!("{:?} with `substeps = {substeps}`{beside}", method.id)
 }
 

@@ -5,9 +5,9 @@ use super::table::Table;
 use super::wanted::{Field, Wanted};
 use super::{MAX_SUBSTEPS, TOLERANCES};
 use crate::scene::{LaneSpec, Swing};
-use crate::sim::TickRate;
 use crate::sim::bodies::Range;
 use crate::sim::integrators::{METHODS, Method};
+use crate::sim::{IMPACTS, Impact, TickRate};
 
 /// A key with a reader into a draft `D` and a writer from a `T`.
 pub(super) struct Key<D: 'static, T: 'static> {
@@ -76,6 +76,11 @@ const JOINT_DAMPING_RATIO: Field = Field::optional(
     "the damping ratio to set with that; by default 0",
     Wanted::Number(Swing::RANGES[1]),
 );
+pub(super) const IMPACT: Field = Field::optional(
+    "impact",
+    "how impacts of a ball are handled; by default \"locate\", the lane's or else the scene's",
+    Wanted::Impact,
+);
 
 pub(super) const TICK_HZ: Field =
     Field::required("tick_hz", "ticks per second, unless `step_s` gives them", Wanted::TickRate);
@@ -118,10 +123,11 @@ pub(super) struct SpecDraft {
     tolerance: Option<f64>,
     joint_hz: Option<f64>,
     joint_damping_ratio: Option<f64>,
+    impact: Option<&'static Impact>,
 }
 
 /// The keys of a lane, which are also keys of commands.
-pub(super) static SPEC: [Key<SpecDraft, LaneSpec>; 5] = [
+pub(super) static SPEC: [Key<SpecDraft, LaneSpec>; 6] = [
     Key {
         field: METHOD,
         read: |spec, row, field| spec.method = row.method(field),
@@ -150,19 +156,24 @@ pub(super) static SPEC: [Key<SpecDraft, LaneSpec>; 5] = [
         read: |spec, row, field| spec.joint_damping_ratio = row.number(field),
         write: |spec| Some(number(spec.joint?.damping_ratio)),
     },
+    Key {
+        field: IMPACT,
+        read: |spec, row, field| spec.impact = row.impact(field).or(spec.impact),
+        write: |spec| (spec.impact != &IMPACTS[0]).then(|| quoted(spec.impact.id)),
+    },
 ];
 
-/// Reads a lane, and reports settings that the lane's method does not take.
-pub(super) fn read_lane_spec(row: &mut Table<'_>) -> Option<LaneSpec> {
-    let mut draft = SpecDraft::default();
+/// Reads a lane, whose rule for impacts is `impact` by default. Reports settings that the lane's method does not take.
+pub(super) fn read_lane_spec(row: &mut Table<'_>, impact: &'static Impact) -> Option<LaneSpec> {
+    let mut draft = SpecDraft { impact: Some(impact), ..SpecDraft::default() };
     Key::read_all(&SPEC, &mut draft, row);
     check_joint(row, draft.method);
-    let SpecDraft { method, substeps, tolerance, joint_hz, joint_damping_ratio } = draft;
+    let SpecDraft { method, substeps, tolerance, joint_hz, joint_damping_ratio, impact } = draft;
     let method = method?;
     let substeps = substeps.unwrap_or(method.default_substeps);
     let damping_ratio = joint_damping_ratio.unwrap_or(0.0);
     let joint = joint_hz.map(|frequency_hz| Swing { frequency_hz, damping_ratio });
-    Some(LaneSpec { method, substeps, tolerance, joint })
+    Some(LaneSpec { method, substeps, tolerance, joint, impact: impact.unwrap_or_default() })
 }
 
 /// Reports a joint for a method that takes none, and a damping ratio without a frequency.

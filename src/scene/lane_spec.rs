@@ -4,7 +4,7 @@ use std::fmt;
 
 use crate::sim::integrators::{Method, Override};
 use crate::sim::number::round;
-use crate::sim::{Range, Solver};
+use crate::sim::{IMPACTS, Impact, Range, Solver};
 
 /// Number of a lane, from 1 in the order of the scene. The number stays the same when other lanes leave the run or
 /// return, and when the lane changes its method.
@@ -43,6 +43,8 @@ pub struct LaneSpec {
     /// Joint settings that an engine uses for every spring, in place of the body's own. `None` is the only value for
     /// methods without a joint.
     pub joint: Option<Swing>,
+    /// Rule for the impacts of bodies with walls. Other bodies ignore it.
+    pub impact: &'static Impact,
 }
 
 /// The swing of a spring, independent of the mass on it.
@@ -74,7 +76,8 @@ impl Swing {
 impl LaneSpec {
     /// Creates a lane under a method with the tolerance and the substeps of the method's card.
     pub fn plain(method: &'static Method) -> Self {
-        Self { method, substeps: method.default_substeps, tolerance: None, joint: None }
+        let (substeps, impact) = (method.default_substeps, &IMPACTS[0]);
+        Self { method, substeps, tolerance: None, joint: None, impact }
     }
 
     /// Returns the method's `name`, followed by each setting in which another of `lanes` with this method differs.
@@ -85,7 +88,13 @@ impl LaneSpec {
         let within =
             self.tolerance.filter(|_| alike().any(|other| other.tolerance != self.tolerance));
         let within = within.map(|tolerance| format!(" {tolerance:e}")).unwrap_or_default();
-        format!("{name}{times}{within}{}", self.joint_suffix(lanes))
+        format!("{name}{times}{within}{}{}", self.joint_suffix(lanes), self.impact_suffix(lanes))
+    }
+
+    /// Returns the rule for impacts as a suffix, if one of `lanes` has another than the default.
+    fn impact_suffix(&self, lanes: &[LaneSpec]) -> String {
+        let is_told = lanes.iter().chain([self]).any(|lane| lane.impact != &IMPACTS[0]);
+        if is_told { format!(", {}", self.impact.id) } else { String::new() }
     }
 
     /// Returns the joint's frequency as a suffix, if another of `lanes` with this method has another joint.
@@ -100,7 +109,7 @@ impl LaneSpec {
     pub fn name_with_substeps(&self, lanes: &[LaneSpec]) -> String {
         let mut others = lanes.iter().filter(|other| other.method == self.method);
         let name = self.method.name;
-        let told = self.joint_suffix(lanes);
+        let told = self.joint_suffix(lanes) + &self.impact_suffix(lanes);
         match self.substeps > 1 || others.any(|other| other.substeps != self.substeps) {
             true => format!("{name} ×{}{told}", self.substeps),
             false => format!("{name}{told}"),
@@ -109,10 +118,12 @@ impl LaneSpec {
 
     /// Returns the solver of the lane's bodies.
     pub fn solver(&self) -> Solver {
-        match (self.joint.map(Swing::per_mass), self.tolerance) {
-            (Some(joint), _) => Solver::With(self.method, Override::Joint(joint)),
-            (None, Some(bound)) => Solver::With(self.method, Override::tolerance(bound)),
-            (None, None) => Solver::Method(self.method),
+        let joint = self.joint.map(|joint| Override::Joint(joint.per_mass()));
+        let setting = joint.or(self.tolerance.map(Override::tolerance));
+        match setting {
+            _ if self.impact != &IMPACTS[0] => Solver::Bouncing(self.method, setting, self.impact),
+            Some(setting) => Solver::With(self.method, setting),
+            None => Solver::Method(self.method),
         }
     }
 }

@@ -263,7 +263,8 @@ impl Scene {
     pub fn method_list(&self) -> Vec<LaneSpec> {
         let is_listed = |method: &Method| self.lanes.iter().any(|spec| spec.method == method);
         let others = self.fitting_methods().filter(|method| !is_listed(method));
-        self.lanes.iter().copied().chain(others.map(LaneSpec::plain)).collect()
+        let plain = others.map(|method| self.plain_lane(method));
+        self.lanes.iter().copied().chain(plain).collect()
     }
 
     /// Returns the scene with only the body at this index. The result has no checks, because these cover all bodies.
@@ -365,6 +366,6 @@ pub static SCENES: &[BuiltIn] = scenes! {
     StartHere: "harbour" "spring" "ship" "damped" "pendulum";
     Chapter: "stiff" "surge" "chain" "helm";
     Engines: "alike" "engines" "held-force" "stiff-in-engines";
-    More: "liouville" "kicked-rotor" "orbit" "follow" "lerp" "duffing" "quarter-car" "bouncing-bungee" "lift" "jump" "rope"
+    More: "liouville" "kicked-rotor" "orbit" "follow" "lerp" "duffing" "quarter-car" "bouncing-bungee" "lift" "jump" "ball" "perpetual" "pong" "landing" "rope"
         "cloth" "bridge";
 };

@@ -64,6 +64,13 @@ pub enum Mark {
         /// Radius of the disc.
         radius: f64,
     },
+    /// A line across a part of the body that is where it cannot be.
+    Hatch {
+        /// One end of the line.
+        from: DVec2,
+        /// The other end of the line.
+        to: DVec2,
+    },
     /// A block at [`Outline::at`] on a coil spring that is fixed at the left. The picture decides the sizes of both.
     Sprung,
     /// The hull of a ship at [`Outline::at`].

@@ -2,9 +2,9 @@
 
 use super::{Scene, SceneBody};
 use crate::scene::{Action, LaneSpec};
-use crate::sim::TickRate;
 use crate::sim::bodies::incompatibility;
 use crate::sim::integrators::{Family, METHODS, Method};
+use crate::sim::{Impact, TickRate};
 
 /// The reason why a method cannot step a scene.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -51,10 +51,37 @@ impl Scene {
             let listed = lanes.len();
             lanes.extend(self.lanes.iter().filter(|lane| lane.method == method));
             if lanes.len() == listed {
-                lanes.push(LaneSpec::plain(method));
+                lanes.push(self.plain_lane(method));
             }
         }
         lanes
+    }
+
+    /// Returns a plain lane of a method, with the rule for impacts that all lanes of the scene have, if it is one.
+    pub fn plain_lane(&self, method: &'static Method) -> LaneSpec {
+        let mut rules = self.lanes.iter().map(|lane| lane.impact);
+        let first = rules.next().unwrap_or_default();
+        let impact = if rules.all(|other| other == first) { first } else { Default::default() };
+        LaneSpec { impact, ..LaneSpec::plain(method) }
+    }
+
+    /// Returns the scene with a lane for each of its own lanes, or of `methods` if there are any, under each of these
+    /// rules for impacts.
+    pub fn with_impacts(
+        mut self,
+        methods: &[&'static Method],
+        impacts: &[&'static Impact],
+    ) -> Self {
+        let own = if methods.is_empty() { self.lanes.clone() } else { self.lanes_of(methods) };
+        self.lanes.clear();
+        for (lane, impact) in own.iter().flat_map(|lane| impacts.iter().map(move |it| (lane, it))) {
+            let lane = LaneSpec { impact, ..*lane };
+            if !self.lanes.contains(&lane) {
+                self.lanes.push(lane);
+            }
+        }
+        self.hint = None;
+        self
     }
 
     /// Returns the scene at this tick rate. A rate other than the file's drops the hint and the checks, which assume
@@ -79,7 +106,7 @@ impl Scene {
         // Engines' methods only appear in scenes that name one, so they need a lane.
         for &method in methods.iter().filter(|method| method.is_engine()) {
             if self.lanes.iter().all(|lane| lane.method != method) {
-                self.lanes.push(LaneSpec::plain(method));
+                self.lanes.push(self.plain_lane(method));
             }
         }
         self.hint.take_if(|_| self.lanes != own);
@@ -113,7 +140,7 @@ impl Scene {
     /// scene's own lanes.
     pub fn advised_lanes(&self) -> Vec<LaneSpec> {
         match self.source {
-            Some(_) => self.methods_for_games().map(LaneSpec::plain).collect(),
+            Some(_) => self.methods_for_games().map(|method| self.plain_lane(method)).collect(),
             None => self.lanes.clone(),
         }
     }

@@ -508,7 +508,7 @@ fn read_lane(context: &SceneContext<'_>, row: &mut Table<'_>) -> Option<LaneId> 
 }
 
 fn read_method(context: &SceneContext<'_>, row: &mut Table<'_>) -> Option<Action> {
-    let spec = read_lane_spec(row);
+    let spec = read_lane_spec(row, Default::default());
     if let Some(LaneSpec { method, .. }) = spec {
         check_method(METHOD.key, method, row.span(METHOD.key), context.bodies, row);
     }

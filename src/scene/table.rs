@@ -11,8 +11,8 @@ use super::errors::SceneError;
 use super::fault::{FaultKind, SceneFault};
 use super::nearest::{nearest, offer};
 use super::wanted::{Field, Place, Wanted};
-use crate::sim::TickRate;
 use crate::sim::integrators::{METHODS, Method};
+use crate::sim::{IMPACTS, Impact, TickRate, impact};
 
 mod lists;
 mod named;
@@ -335,6 +335,19 @@ impl<'t> Table<'t> {
             Some(entries) => Some((value, entries)),
             None => self.wrong_type(field, value),
         }
+    }
+
+    /// Reads the id of a rule for impacts.
+    pub(super) fn impact(&mut self, field: &Field) -> Option<&'static Impact> {
+        let id = self.text(field)?;
+        let found = impact(&id);
+        if found.is_none() {
+            let known: Vec<_> = IMPACTS.iter().map(|impact| impact.id).collect();
+            let nearest = nearest(&id, known.iter().map(|id| (*id, *id)));
+            let what = format!("unknown rule {:?} in `{}`", clip(&id), field.key);
+            self.report_fault(self.span(field.key), what, offer(nearest, &known, '"'));
+        }
+        found
     }
 
     fn method_named(

@@ -61,6 +61,8 @@ pub(super) enum Wanted {
     Point,
     /// The id of a method.
     Method,
+    /// The id of a rule for impacts.
+    Impact,
     /// A list of methods' ids.
     Methods,
     /// A table array of this name.
@@ -151,6 +153,7 @@ impl Wanted {
         match self {
             Wanted::Text(_)
             | Wanted::Method
+            | Wanted::Impact
             | Wanted::Hash
             | Wanted::Expression
             | Wanted::Lines
@@ -197,6 +200,9 @@ impl fmt::Display for Wanted {
             Wanted::Curve(range) => write!(f, "a list of {range}"),
             Wanted::Point => write!(f, "two numbers in brackets, such as [0.0, 1.0]"),
             Wanted::Method => write!(f, "a method's name in double quotes, such as \"rk4\""),
+            Wanted::Impact => {
+                write!(f, "a rule of `regatta list impacts` in double quotes, such as \"clamp\"")
+            }
             Wanted::Methods => write!(f, "a list of methods' names, such as [\"rk4\"]"),
             Wanted::Hash => write!(
                 f,

@@ -2,6 +2,7 @@
 
 use glam::DVec2;
 
+use super::impact::Wall;
 use super::parameter::{self, ParameterOf};
 use super::state::Vector;
 use super::system::{BodyClass, StateOf, System};
@@ -16,6 +17,9 @@ pub trait Body: System<Vector: Vector> + Clone + Send + 'static {
 
     /// Whether the body has a closed form, [`Body::exact_into`].
     const HAS_EXACT: bool = false;
+
+    /// Whether the body can have [walls](Body::walls).
+    const HAS_WALLS: bool = false;
 
     /// The parameters of this kind of body. The card of the kind has their descriptions as
     /// [`Kind::parameters`](super::bodies::Kind::parameters).
@@ -88,6 +92,22 @@ pub trait Body: System<Vector: Vector> + Clone + Send + 'static {
         _to: &StateOf<Self>,
     ) -> [f64; 2] {
         [f64::INFINITY; 2]
+    }
+
+    /// Returns the walls of the first coordinate at time `t` (s): the lower one, which the body meets falling, and the
+    /// upper one. Between impacts the body moves by its acceleration.
+    fn walls(&self, _t: f64) -> [Option<Wall>; 2] {
+        [None; 2]
+    }
+
+    /// Makes the walls springs, or makes them hard again.
+    fn soften(&mut self, _is_soft: bool) {}
+
+    /// Returns the time (s) after the state `from` of the true impact of this number, and the height of the flight
+    /// after it. Impacts count from 1, and number 0 is `from` itself. The height is NaN between two walls. `None` if
+    /// there is no such impact, or no closed form.
+    fn bounce(&self, _from: &StateOf<Self>, _impact: u64) -> Option<[f64; 2]> {
+        None
     }
 
     /// Whether the acceleration is a linear function of coordinates and velocities, plus a constant.

@@ -6,7 +6,9 @@ use std::rc::Rc;
 use glam::DVec2;
 
 use super::body::Body;
+use super::bouncer::Bouncer;
 use super::exact_flow::ExactFlow;
+use super::impact::{Bounces, impact};
 use super::integrators::{
     Construct, Integrator, Method, MethodOf, Problem, StepFailure, Stepped, any_integrator,
     construct, problem,
@@ -22,20 +24,24 @@ use super::system::{
 /// Returns a stepper of `body` under `solver`, at the start of the body and at time 0.
 pub fn stepper<B: Body>(body: B, solver: Solver) -> Box<dyn Stepper> {
     let state = body.start();
-    BodyAtState { body: Counted::new(body), state, solver, lost_before: 0.0, lost_time: 0.0 }
-        .begin(0.0)
+    let (body, bounces) = (Counted::new(body), Bounces::default());
+    BodyAtState { body, state, solver, lost_before: 0.0, lost_time: 0.0, bounces }.begin(0.0)
 }
 
 impl<B: Body> BodyAtState<B> {
     /// Builds the stepper, which starts under the solver at time `t` (s).
-    fn begin(self, t: f64) -> Box<dyn Stepper> {
+    fn begin(mut self, t: f64) -> Box<dyn Stepper> {
+        if const { B::HAS_WALLS } {
+            let is_soft = Some(self.solver.impact()) == impact("penalty");
+            self.body.system.soften(is_soft && self.solver != Solver::Truth);
+        }
         if let Some(method) = self.solver.method() {
             let coupling = self.body.coupling();
             if const { <B::Vector as Vector>::IS_SMALL } {
                 return construct(method, coupling, self);
             }
             let mut integrator = any_integrator(method, B::CLASS, coupling, &self.state.q);
-            if let Solver::With(_, other) = self.solver {
+            if let Some(other) = self.solver.setting() {
                 integrator.set(other);
             }
             Box::new(BodyStepper { placed: self, propagator: AnyMethod(integrator) })
@@ -71,10 +77,15 @@ impl<B: Body> Construct<Counted<B>> for BodyAtState<B> {
     #[inline(always)]
     fn of<I: MethodOf<Counted<B>>>(self, new: impl FnOnce(&B::Vector) -> I) -> Self::Output {
         let mut integrator = new(&self.state.q);
-        if let Solver::With(_, other) = self.solver {
+        if let Some(other) = self.solver.setting() {
             Integrator::<Counted<B>>::set(&mut integrator, other);
         }
-        Box::new(BodyStepper { placed: self, propagator: MethodPropagator(integrator) })
+        let method = MethodPropagator(integrator);
+        if const { B::HAS_WALLS } {
+            let propagator = Bouncer::new(method, self.solver.impact(), self.bounces, &self.state);
+            return Box::new(BodyStepper { placed: self, propagator });
+        }
+        Box::new(BodyStepper { placed: self, propagator: method })
     }
 }
 
@@ -88,19 +99,24 @@ struct BodyStepper<B: Body, D> {
 impl<B: Body, D: Propagator<B> + Clone> Stepper for BodyStepper<B, D> {
     fn advance(&mut self, t: f64, h: f64, substeps: u32) -> Stepped {
         StepFailure::check_step(t, h, substeps)?;
-        let Self { placed: BodyAtState { body, state, lost_before, lost_time, .. }, propagator } =
-            self;
+        let Self { placed, propagator } = self;
+        let BodyAtState { body, state, lost_before, lost_time, bounces, .. } = placed;
         let stepped = propagator.step(body, t, h, substeps, state);
         let lost = propagator.lost_time();
         if lost > 0.0 {
             *lost_time = *lost_before + lost;
         }
+        if const { B::HAS_WALLS } {
+            *bounces = propagator.bounces().unwrap_or(*bounces);
+        }
         stepped
     }
 
     fn change(&mut self, t: f64, change: Change<'_>) -> bool {
-        let Self { placed: BodyAtState { body, state, .. }, propagator } = self;
-        propagator.jump(t, change, &mut body.system, state)
+        let Self { placed: BodyAtState { body, state, bounces, .. }, propagator } = self;
+        let is_changed = propagator.jump(t, change, &mut body.system, state);
+        *bounces = propagator.bounces().unwrap_or(*bounces);
+        is_changed
     }
 
     fn placed(&self) -> &(dyn PlacedBody + 'static) {
@@ -120,16 +136,18 @@ impl<B: Body, D: Propagator<B> + Clone> Stepper for BodyStepper<B, D> {
         self.propagator.truth_error(&self.placed.body, &self.placed.state)
     }
 
+    fn true_bounce(&self, impact: u64) -> Option<[f64; 2]> {
+        self.propagator.true_bounce(&self.placed.body.system, impact)
+    }
+
     fn bytes(&self, solver: Solver) -> usize {
         let (body, q) = (&self.placed.body, self.placed.q());
         let kept =
             solver.method().map_or(0, |method| method.numbers_kept(q.len(), body.coupling()));
-        // All fields but the solver may contain vectors.
-        let others = size_of::<Self>() - size_of::<Solver>() + self.propagator.heap_bytes();
-        size_of::<Solver>()
-            + bytes_with_vectors(others, q)
-            + body.system.heap_bytes()
-            + size_of::<f64>() * kept
+        // All fields but the solver and the bounces may contain vectors.
+        let plain = size_of::<Solver>() + size_of::<Bounces>();
+        let others = size_of::<Self>() - plain + self.propagator.heap_bytes();
+        plain + bytes_with_vectors(others, q) + body.system.heap_bytes() + size_of::<f64>() * kept
     }
 
     fn boxed_clone(&self) -> Box<dyn Stepper> {
@@ -145,15 +163,14 @@ struct BodyAtState<B: Body> {
     /// The time in seconds that methods left out of their steps, first only before the present solver, then in all.
     lost_before: f64,
     lost_time: f64,
+    bounces: Bounces,
 }
 
 impl<B: Body> Clone for BodyAtState<B> {
     /// Not inlined, because each method would otherwise contain a copy of this function.
     #[inline(never)]
     fn clone(&self) -> Self {
-        let Self { body, state, solver, lost_before, lost_time } = self;
-        let (body, state) = (body.clone(), state.clone());
-        Self { body, state, solver: *solver, lost_before: *lost_before, lost_time: *lost_time }
+        Self { body: self.body.clone(), state: self.state.clone(), ..*self }
     }
 }
 
@@ -179,6 +196,9 @@ impl<B: Body> PlacedBody for BodyAtState<B> {
     }
     fn lost_time(&self) -> f64 {
         self.lost_time
+    }
+    fn bounces(&self) -> Option<&Bounces> {
+        const { B::HAS_WALLS }.then_some(&self.bounces)
     }
     fn is_linear(&self) -> bool {
         self.body.system.is_linear()

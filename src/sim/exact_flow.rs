@@ -99,6 +99,11 @@ impl<B: Body> Propagator<B> for ExactFlow<B::Vector> {
         is_changed
     }
 
+    fn true_bounce(&self, body: &B, impact: u64) -> Option<[f64; 2]> {
+        let [after_s, apex] = body.bounce(&self.anchor.state, impact)?;
+        Some([self.anchor.t + after_s, apex])
+    }
+
     fn is_closed_form(&self) -> bool {
         true
     }

@@ -10,6 +10,7 @@ pub mod batch;
 pub mod bodies;
 mod body;
 mod body_stepper;
+mod bouncer;
 mod clock;
 #[cfg(feature = "lab")]
 pub mod conformance;
@@ -19,6 +20,7 @@ mod double_double;
 mod exact_flow;
 mod exact_since_start;
 mod fnv;
+mod impact;
 pub mod integrators;
 #[cfg(feature = "lab")]
 pub mod law;
@@ -46,6 +48,7 @@ pub use body_stepper::stepper;
 pub use clock::{Accumulator, Clock, Due, MAX_FRAME_MS, TickRateError};
 #[cfg(feature = "lab")]
 pub(crate) use fnv::Fnv;
+pub use impact::{Bounces, IMPACTS, Impact, Wall, impact};
 #[cfg(feature = "lab")]
 pub(crate) use numerics::golden_section;
 #[cfg(feature = "lab")]

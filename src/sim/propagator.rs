@@ -15,6 +15,7 @@
 //!   skips this comparison, which would cost time at every tick.
 
 use super::body::Body;
+use super::impact::Bounces;
 use super::integrators::{AnyIntegrator, AnySystem, Integrator, Problem, Stepped};
 use super::state::{State, Vector};
 use super::stepper::Change;
@@ -62,6 +63,17 @@ pub(super) trait Propagator<B: Body>: Send + 'static {
     /// Returns the time in seconds that a method has left out of its steps.
     fn lost_time(&self) -> f64 {
         0.0
+    }
+
+    /// Returns the record of a body that meets walls; `None` for the truth, and for other bodies.
+    fn bounces(&self) -> Option<Bounces> {
+        None
+    }
+
+    /// Returns the time (s) of the true impact of this number since the last change, and the height of the flight after
+    /// it; `None` for a method.
+    fn true_bounce(&self, _body: &B, _impact: u64) -> Option<[f64; 2]> {
+        None
     }
 
     /// Returns the memory on the heap in bytes, without coordinate vectors.

@@ -6,6 +6,7 @@ use std::ops::Deref;
 use glam::DVec2;
 
 use super::body::{Body, Input};
+use super::impact::{Bounces, Impact};
 use super::integrators::{Method, Override, StepFailure, Stepped};
 use super::state::Vector;
 use super::system::{Coupling, EngineSettings, Evaluation, Pursuit, StateOf};
@@ -18,6 +19,8 @@ pub enum Solver {
     /// A method from the table, with an override of its card's tolerance or of the body's joint. A method without a
     /// tolerance ignores the override, as does an engine on a body without a joint.
     With(&'static Method, Override),
+    /// A method from the table, perhaps with an override, and another rule for impacts than the default.
+    Bouncing(&'static Method, Option<Override>, &'static Impact),
     /// The exact flow from the last jump, or a reference solution if the body has no closed form.
     Truth,
 }
@@ -26,9 +29,25 @@ impl Solver {
     /// Returns the method; `None` if the solver is the truth.
     pub fn method(self) -> Option<&'static Method> {
         match self {
-            Solver::Method(method) | Solver::With(method, _) => Some(method),
+            Solver::Method(method) | Solver::With(method, _) | Solver::Bouncing(method, ..) => {
+                Some(method)
+            }
             Solver::Truth => None,
         }
+    }
+
+    /// Returns the override of the method's settings, if there is one.
+    pub fn setting(self) -> Option<Override> {
+        match self {
+            Solver::With(_, setting) => Some(setting),
+            Solver::Bouncing(_, setting, _) => setting,
+            Solver::Method(_) | Solver::Truth => None,
+        }
+    }
+
+    /// Returns the rule for impacts.
+    pub fn impact(self) -> &'static Impact {
+        if let Solver::Bouncing(.., impact) = self { impact } else { Default::default() }
     }
 }
 
@@ -70,6 +89,10 @@ pub trait Stepper: Send {
     /// units. For a closed form, the errors are bounds on rounding. For a reference solution, they are estimated from a
     /// second solution with other steps. An unknown error is infinite. Returns `None` under a method.
     fn truth_error(&self) -> Option<[f64; 2]>;
+
+    /// Returns the time (s) of the true impact of this number since the last input, edit or placement, and the height of
+    /// the flight after it. `None` under a method, and if there is no such impact.
+    fn true_bounce(&self, impact: u64) -> Option<[f64; 2]>;
 
     /// Returns an upper bound on the memory of the stepper under its `solver`, in bytes.
     fn bytes(&self, solver: Solver) -> usize;
@@ -169,6 +192,8 @@ pub trait PlacedBody {
     fn evaluations(&self) -> u64;
     /// Returns the time in seconds that methods left out of their steps since the start.
     fn lost_time(&self) -> f64;
+    /// Returns the record of the impacts of a body with walls; `None` for other bodies. The truth keeps none.
+    fn bounces(&self) -> Option<&Bounces>;
     /// Whether the equation of motion is linear, apart from a constant.
     fn is_linear(&self) -> bool;
     /// Whether this coordinate is an angle, so that a full turn leaves the body unchanged.

@@ -7,6 +7,7 @@ use super::sketch::Camera;
 use super::{Align, Picture, captions};
 use crate::run::past::SweptRange;
 use crate::run::race::Entrant;
+use crate::sim::Bounces;
 use crate::sim::number::significant;
 
 /// Half the width of a height mark, in points.
@@ -27,7 +28,7 @@ fn apex(swept: impl Iterator<Item = SweptRange>) -> Option<f64> {
     (is_down && most_m > 0.0).then_some(most_m)
 }
 
-/// Marks the height of a body's jump and that of the exact one, and writes the difference in the words that fit.
+/// Marks the height of a body's jump or last bounce and that of the exact one, and writes the difference in the words that fit.
 pub(super) fn draw(
     picture: &mut Picture,
     camera: &Camera,
@@ -39,7 +40,15 @@ pub(super) fn draw(
     let since_s = past.changed_s();
     let of_lane = apex(moment.history(lane, index).since(since_s).map(|sample| sample.swept));
     let of_truth = apex(past.truth_curves()[index].since(since_s).map(|sample| sample.swept));
-    let Some((lane_m, exact_m)) = of_lane.zip(of_truth) else { return };
+    let bounced = |bounces: &Bounces| {
+        let truth = &moment.studio.race().truth().bodies()[index].stepper;
+        Some((bounces.apex?, truth.true_bounce(bounces.apex_after)?[1]))
+    };
+    let heights = match lane.lane.bodies()[index].stepper.bounces() {
+        Some(bounces) => bounced(bounces),
+        None => of_lane.zip(of_truth),
+    };
+    let Some((lane_m, exact_m)) = heights else { return };
     let (colour, _) = moment.style(moment.studio.entry(lane));
     for (height, colour) in [(exact_m, moment.palette.exact), (lane_m, colour)] {
         let [x, y] = camera.points(DVec2::new(0.0, height));

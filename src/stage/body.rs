@@ -117,7 +117,8 @@ impl OutlineView<'_> {
                     let ends = [from, to].map(|end| camera.points(end));
                     strut(pen, ends, camera.size(radius), self.palette);
                 }
-                Mark::Disc { .. } | Mark::Block { .. } | Mark::Hull { .. } => {}
+                Mark::Disc { .. } | Mark::Block { .. } | Mark::Hull { .. } | Mark::Hatch { .. } => {
+                }
             }
         }
         self.names(picture);
@@ -150,7 +151,8 @@ impl OutlineView<'_> {
                 | Mark::Anchor { .. }
                 | Mark::Planet { .. }
                 | Mark::Coil { .. }
-                | Mark::Rail { .. } => return None,
+                | Mark::Rail { .. }
+                | Mark::Hatch { .. } => return None,
             })
         })
     }
@@ -167,6 +169,12 @@ impl OutlineView<'_> {
                 MovingPart::Sprung(span) => mass::block(pen, span.block, camera.block, colour),
                 MovingPart::Block(corners) => mass::slab(pen, corners, colour),
                 MovingPart::Hull(pose) => hull::ship(pen, pose, colour, self.palette),
+            }
+        }
+        for mark in &self.outline.marks {
+            if let Mark::Hatch { from, to } = *mark {
+                let ends = [from, to].map(|end| camera.points(end));
+                pen.line(ends[0], ends[1], 1.6, self.palette.sea[1]);
             }
         }
     }

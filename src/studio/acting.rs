@@ -6,9 +6,10 @@ use super::notice::Notice;
 use super::restarting::{Jump, follow, restart};
 use super::step::Step;
 use super::viewer::Viewer;
-use crate::run::race::{Mode, equal_cost};
+use crate::run::race::{Entrant, Mode, equal_cost};
 use crate::run::{MenuIndex, StartSettings};
 use crate::scene::{Action, LaneId, LaneSpec};
+use crate::sim::IMPACTS;
 use crate::sim::bodies::TakesEffect;
 use crate::sim::integrators::Method;
 use crate::sim::number::round;
@@ -106,6 +107,18 @@ pub(super) fn set_lane(deck: &mut Deck, viewer: &mut Viewer, spec: LaneSpec) {
             act(deck, viewer, Action::Lane { lane, spec });
         }
     }
+}
+
+/// Gives the selected lane the next rule for impacts, in flight.
+pub(super) fn next_impact(deck: &mut Deck, viewer: &mut Viewer) {
+    if !deck.scene().bodies.iter().any(|body| body.kind.has_walls) {
+        return viewer.set_notice("J changes how a ball bounces: open the scene ball");
+    }
+    let Entrant { id: lane, spec, .. } = *deck.selected();
+    let next = 1 + IMPACTS.iter().take_while(|&impact| impact != spec.impact).count();
+    let impact = &IMPACTS[next % IMPACTS.len()];
+    act(deck, viewer, Action::Lane { lane, spec: LaneSpec { impact, ..spec } });
+    viewer.set_notice(format!("{}: {}", impact.id, impact.about));
 }
 
 /// Picks the next available menu entry in this direction, cyclically.

@@ -75,6 +75,8 @@ pub enum RunCommand {
     RudderRight,
     /// Selects the next [interpolation](crate::run::race::Interpolation::ALL) between ticks.
     NextInterpolation,
+    /// Gives the selected lane the next [rule for impacts](crate::sim::IMPACTS).
+    NextImpact,
     /// Shows the displayed body's parameter with this index on the stability map.
     MapParameter(usize),
     /// Chooses the clouds of the cloud instrument.

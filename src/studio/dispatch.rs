@@ -1,7 +1,7 @@
 //! Passes commands on the run to the functions that execute them, and so commands on the stage while it shows the run.
 
 use super::acting::{
-    act, menu_index, pick, pick_beside, seek, set_lane, step_by, tell_of_the_future,
+    act, menu_index, next_impact, pick, pick_beside, seek, set_lane, step_by, tell_of_the_future,
     toggle_equal_cost,
 };
 use super::command::{RunCommand, SPEED_LADDER, StageCommand, TICK_LADDER};
@@ -40,6 +40,7 @@ pub(super) fn carry_out_on_run(deck: &mut Deck, viewer: &mut Viewer, command: Ru
         RunCommand::Undo => undo(deck, viewer),
         RunCommand::Redo => redo(deck, viewer),
         RunCommand::NextInterpolation => viewer.next_interpolation(),
+        RunCommand::NextImpact => next_impact(deck, viewer),
         RunCommand::MapParameter(parameter) => {
             let view = &mut viewer.view;
             view.mapped_parameter = Some((view.body, parameter));

@@ -170,6 +170,8 @@ pub static KEYS: &[Binding] = keys! {
         Left => Run(RunCommand::RudderLeft), Right => Run(RunCommand::RudderRight);
     once "K" "kick: an impulse at the next tick":
         Sign('k') => Run(RunCommand::Act(Action::Kick(1.0)));
+    once "J" "bounce: the next rule for impacts (ball)":
+        Sign('j') => Run(RunCommand::NextImpact);
     once "N, B" "next, previous scene":
         Sign('n') => Stage(StageCommand::SceneBeside(Step::Next)),
         Sign('b') => Stage(StageCommand::SceneBeside(Step::Previous));

@@ -16,6 +16,7 @@
 
 use std::fmt;
 
+use crate::sim::Impact;
 use crate::sim::integrators::Method;
 pub use crate::sim::law::MethodInput;
 use crate::sim::law::StepText;
@@ -130,6 +131,21 @@ pub(super) fn rule_code(
     let text = StepText::read_generated(lines).map_err(|fault| fault.what)?;
     let header = header::of_rule(about, &text, language);
     Ok(printer::print("rule", &text, language, Precision::Double, &header))
+}
+
+/// Returns a rule for impacts as a function, for e = 0.8 and a floor at 0.
+///
+/// # Errors
+/// The reason why the language cannot express the rule, as a clause.
+pub fn impact_code(impact: &Impact, language: Language) -> Result<String, String> {
+    let effect = impact.kappa.map(|kappa| {
+        format!(
+            "Under gravity g an impact adds (s + {kappa}) g h to the speed, s = -1 with semi-implicit Euler, 0 with \
+             Verlet and RK4, 1 with explicit Euler."
+        )
+    });
+    let about = std::iter::once(format!("{}: {}.", impact.id, impact.about)).chain(effect);
+    rule_code(impact.code, &about.collect::<Vec<_>>(), language)
 }
 
 /// Returns the lines of a method, unless the language or the precision rules them out.

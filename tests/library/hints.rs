@@ -428,6 +428,9 @@ fn hold(studio: &mut Studio, hint: &str, command: &Command, told: &Told<'_>) {
         Command::View(ViewCommand::TogglePause) => assert!(studio.running(), "{hint}"),
         Command::View(ViewCommand::ToggleGuide) => assert!(studio.viewer.tour().is_some()),
         Command::View(ViewCommand::Copy) => assert!(asked.is_some(), "{hint}"),
+        Command::Run(RunCommand::NextImpact) => {
+            assert_eq!(studio.race().journal().rows().len(), rows + 1, "{hint}");
+        }
         Command::Run(RunCommand::ToggleInspector) => assert!(studio.display().inspector, "{hint}"),
         Command::Run(RunCommand::Act(Action::Kick(_))) => {
             assert_eq!(studio.race().journal().rows().len(), rows + 1, "{hint}");

@@ -8,6 +8,7 @@ mod batches;
 mod blocks;
 mod blow_up;
 mod bodies;
+mod bounce;
 mod chapter;
 #[cfg(feature = "cli")]
 mod ci_recipe;

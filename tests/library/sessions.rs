@@ -18,7 +18,12 @@ impl Dice {
         let method = &GENERAL_METHODS[self.below(GENERAL_METHODS.len())];
         let tolerance = (method.tolerance.is_some() && self.part() < 0.5)
             .then(|| 10.0_f64.powf(self.between(-8.0, -3.0)));
-        LaneSpec { method, substeps: 1 + self.below(3) as u32, tolerance, joint: None }
+        LaneSpec {
+            method,
+            substeps: 1 + self.below(3) as u32,
+            tolerance,
+            ..LaneSpec::plain(method)
+        }
     }
 }
 

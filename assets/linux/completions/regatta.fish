@@ -1,6 +1,6 @@
 # Print an optspec for argparse to handle cmd's options that are independent of any subcommand.
 function __fish_regatta_global_optspecs
-    string join \n scene= k= c= frequency= damping-ratio= mass= method= tick-hz= step= race loop= seconds= record= force theme= renderer= reduced-motion h/help V/version
+    string join \n scene= k= c= frequency= damping-ratio= mass= method= impact= tick-hz= step= race loop= seconds= record= force theme= renderer= reduced-motion h/help V/version
 end
 
 function __fish_regatta_needs_command
@@ -47,6 +47,10 @@ quarter-car\t''
 bouncing-bungee\t''
 lift\t''
 jump\t''
+ball\t''
+perpetual\t''
+pong\t''
+landing\t''
 rope\t''
 cloth\t''
 bridge\t''"
@@ -106,6 +110,18 @@ engine-mujoco-rk4\t''
 engine-godot\t''
 engine-box3d\t''
 held-force\t''"
+complete -c regatta -n "__fish_regatta_needs_command" -l impact -d 'A rule for impacts of a ball, or several' -r -f -a "locate\t''
+velocity\t''
+velocity-blind\t''
+clamp\t''
+mirror\t''
+energy\t''
+before-tick\t''
+locate-cubic\t''
+locate-chord\t''
+swept\t''
+swept-step\t''
+penalty\t''"
 complete -c regatta -n "__fish_regatta_needs_command" -l tick-hz -d 'Ticks per second [default: the scene\'s]' -r
 complete -c regatta -n "__fish_regatta_needs_command" -l step -d 'The length of a tick, in place of --tick-hz' -r
 complete -c regatta -n "__fish_regatta_needs_command" -l loop -d 'Open the loop lab on a trace [default: edge]' -r
@@ -164,6 +180,10 @@ quarter-car\t''
 bouncing-bungee\t''
 lift\t''
 jump\t''
+ball\t''
+perpetual\t''
+pong\t''
+landing\t''
 rope\t''
 cloth\t''
 bridge\t''"
@@ -223,6 +243,18 @@ engine-mujoco-rk4\t''
 engine-godot\t''
 engine-box3d\t''
 held-force\t''"
+complete -c regatta -n "__fish_regatta_using_subcommand play" -l impact -d 'A rule for impacts of a ball, or several' -r -f -a "locate\t''
+velocity\t''
+velocity-blind\t''
+clamp\t''
+mirror\t''
+energy\t''
+before-tick\t''
+locate-cubic\t''
+locate-chord\t''
+swept\t''
+swept-step\t''
+penalty\t''"
 complete -c regatta -n "__fish_regatta_using_subcommand play" -l tick-hz -d 'Ticks per second [default: the scene\'s]' -r
 complete -c regatta -n "__fish_regatta_using_subcommand play" -l step -d 'The length of a tick, in place of --tick-hz' -r
 complete -c regatta -n "__fish_regatta_using_subcommand play" -l loop -d 'Open the loop lab on a trace [default: edge]' -r
@@ -260,6 +292,10 @@ quarter-car\t''
 bouncing-bungee\t''
 lift\t''
 jump\t''
+ball\t''
+perpetual\t''
+pong\t''
+landing\t''
 rope\t''
 cloth\t''
 bridge\t''"
@@ -319,6 +355,18 @@ engine-mujoco-rk4\t''
 engine-godot\t''
 engine-box3d\t''
 held-force\t''"
+complete -c regatta -n "__fish_regatta_using_subcommand capture" -l impact -d 'A rule for impacts of a ball, or several' -r -f -a "locate\t''
+velocity\t''
+velocity-blind\t''
+clamp\t''
+mirror\t''
+energy\t''
+before-tick\t''
+locate-cubic\t''
+locate-chord\t''
+swept\t''
+swept-step\t''
+penalty\t''"
 complete -c regatta -n "__fish_regatta_using_subcommand capture" -l tick-hz -d 'Ticks per second [default: the scene\'s]' -r
 complete -c regatta -n "__fish_regatta_using_subcommand capture" -l step -d 'The length of a tick, in place of --tick-hz' -r
 complete -c regatta -n "__fish_regatta_using_subcommand capture" -l loop -d 'Show the loop lab over a trace [default: edge]' -r
@@ -387,6 +435,10 @@ quarter-car\t''
 bouncing-bungee\t''
 lift\t''
 jump\t''
+ball\t''
+perpetual\t''
+pong\t''
+landing\t''
 rope\t''
 cloth\t''
 bridge\t''"
@@ -446,6 +498,18 @@ engine-mujoco-rk4\t''
 engine-godot\t''
 engine-box3d\t''
 held-force\t''"
+complete -c regatta -n "__fish_regatta_using_subcommand trace" -l impact -d 'A rule for impacts of a ball, or several' -r -f -a "locate\t''
+velocity\t''
+velocity-blind\t''
+clamp\t''
+mirror\t''
+energy\t''
+before-tick\t''
+locate-cubic\t''
+locate-chord\t''
+swept\t''
+swept-step\t''
+penalty\t''"
 complete -c regatta -n "__fish_regatta_using_subcommand trace" -l tick-hz -d 'Ticks per second [default: the scene\'s]' -r
 complete -c regatta -n "__fish_regatta_using_subcommand trace" -l step -d 'The length of a tick, in place of --tick-hz' -r
 complete -c regatta -n "__fish_regatta_using_subcommand trace" -l seconds -d 'Simulated seconds [default: the scene\'s]' -r
@@ -453,6 +517,7 @@ complete -c regatta -n "__fish_regatta_using_subcommand trace" -l every -d 'Writ
 complete -c regatta -n "__fish_regatta_using_subcommand trace" -l format -d 'How to write it: csv or json' -r -f -a "csv\t'Comma-separated values under a header'
 json\t'An array of objects with the same names'"
 complete -c regatta -n "__fish_regatta_using_subcommand trace" -l metrics -d 'Write each metric too (`regatta list metrics`)'
+complete -c regatta -n "__fish_regatta_using_subcommand trace" -l impacts -d 'Write a row for each impact of a ball in place of the ticks'
 complete -c regatta -n "__fish_regatta_using_subcommand trace" -s h -l help -d 'Print help (see more with \'--help\')'
 complete -c regatta -n "__fish_regatta_using_subcommand advise" -l scene -d 'A scene or the file of one [default: harbour]' -r -f -a "harbour\t''
 spring\t''
@@ -477,6 +542,10 @@ quarter-car\t''
 bouncing-bungee\t''
 lift\t''
 jump\t''
+ball\t''
+perpetual\t''
+pong\t''
+landing\t''
 rope\t''
 cloth\t''
 bridge\t''"
@@ -536,6 +605,18 @@ engine-mujoco-rk4\t''
 engine-godot\t''
 engine-box3d\t''
 held-force\t''"
+complete -c regatta -n "__fish_regatta_using_subcommand advise" -l impact -d 'A rule for impacts of a ball, or several' -r -f -a "locate\t''
+velocity\t''
+velocity-blind\t''
+clamp\t''
+mirror\t''
+energy\t''
+before-tick\t''
+locate-cubic\t''
+locate-chord\t''
+swept\t''
+swept-step\t''
+penalty\t''"
 complete -c regatta -n "__fish_regatta_using_subcommand advise" -l tick-hz -d 'Ticks per second [default: the scene\'s]' -r
 complete -c regatta -n "__fish_regatta_using_subcommand advise" -l step -d 'The length of a tick, in place of --tick-hz' -r
 complete -c regatta -n "__fish_regatta_using_subcommand advise" -l family -d 'Judge only the methods of this family' -r -f -a "explicit\t''
@@ -580,6 +661,10 @@ quarter-car\t''
 bouncing-bungee\t''
 lift\t''
 jump\t''
+ball\t''
+perpetual\t''
+pong\t''
+landing\t''
 rope\t''
 cloth\t''
 bridge\t''"
@@ -639,6 +724,18 @@ engine-mujoco-rk4\t''
 engine-godot\t''
 engine-box3d\t''
 held-force\t''"
+complete -c regatta -n "__fish_regatta_using_subcommand sweep" -l impact -d 'The rule for impacts of every ball (`regatta list impacts`) [default: the scene\'s]' -r -f -a "locate\t''
+velocity\t''
+velocity-blind\t''
+clamp\t''
+mirror\t''
+energy\t''
+before-tick\t''
+locate-cubic\t''
+locate-chord\t''
+swept\t''
+swept-step\t''
+penalty\t''"
 complete -c regatta -n "__fish_regatta_using_subcommand sweep" -l tick-hz -d 'Tick rates in Hz, separated by commas' -r
 complete -c regatta -n "__fish_regatta_using_subcommand sweep" -l step -d 'Lengths of a tick in seconds, in place of --tick-hz' -r
 complete -c regatta -n "__fish_regatta_using_subcommand sweep" -l vary -d 'Values of a parameter: a row for each' -r
@@ -674,6 +771,10 @@ quarter-car\t''
 bouncing-bungee\t''
 lift\t''
 jump\t''
+ball\t''
+perpetual\t''
+pong\t''
+landing\t''
 rope\t''
 cloth\t''
 bridge\t''"
@@ -733,6 +834,18 @@ engine-mujoco-rk4\t''
 engine-godot\t''
 engine-box3d\t''
 held-force\t''"
+complete -c regatta -n "__fish_regatta_using_subcommand cloud" -l impact -d 'A rule for impacts of a ball, or several' -r -f -a "locate\t''
+velocity\t''
+velocity-blind\t''
+clamp\t''
+mirror\t''
+energy\t''
+before-tick\t''
+locate-cubic\t''
+locate-chord\t''
+swept\t''
+swept-step\t''
+penalty\t''"
 complete -c regatta -n "__fish_regatta_using_subcommand cloud" -l tick-hz -d 'Ticks per second [default: the scene\'s]' -r
 complete -c regatta -n "__fish_regatta_using_subcommand cloud" -l step -d 'The length of a tick, in place of --tick-hz' -r
 complete -c regatta -n "__fish_regatta_using_subcommand cloud" -l points -d 'Starts, 1 to 1000000000' -r
@@ -891,6 +1004,10 @@ quarter-car\t''
 bouncing-bungee\t''
 lift\t''
 jump\t''
+ball\t''
+perpetual\t''
+pong\t''
+landing\t''
 rope\t''
 cloth\t''
 bridge\t''"
@@ -1110,6 +1227,10 @@ quarter-car\t''
 bouncing-bungee\t''
 lift\t''
 jump\t''
+ball\t''
+perpetual\t''
+pong\t''
+landing\t''
 rope\t''
 cloth\t''
 bridge\t''"
@@ -1169,6 +1290,18 @@ engine-mujoco-rk4\t''
 engine-godot\t''
 engine-box3d\t''
 held-force\t''"
+complete -c regatta -n "__fish_regatta_using_subcommand fixture" -l impact -d 'A rule for impacts of a ball, or several' -r -f -a "locate\t''
+velocity\t''
+velocity-blind\t''
+clamp\t''
+mirror\t''
+energy\t''
+before-tick\t''
+locate-cubic\t''
+locate-chord\t''
+swept\t''
+swept-step\t''
+penalty\t''"
 complete -c regatta -n "__fish_regatta_using_subcommand fixture" -l tick-hz -d 'Ticks per second [default: the scene\'s]' -r
 complete -c regatta -n "__fish_regatta_using_subcommand fixture" -l step -d 'The length of a tick, in place of --tick-hz' -r
 complete -c regatta -n "__fish_regatta_using_subcommand fixture" -l seconds -d 'Simulated seconds [default: the scene\'s]' -r

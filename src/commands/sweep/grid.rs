@@ -102,7 +102,7 @@ impl Grid {
                 for method in swept.methods.iter().filter(fits) {
                     grid.runs.extend(rates.iter().map(|&tick_hz| PlannedRun {
                         subject: grid.subjects.len(),
-                        spec: LaneSpec::plain(method),
+                        spec: scene.plain_lane(method),
                         tick_hz,
                     }));
                 }

@@ -1,6 +1,8 @@
 //! Whether a lane meets a criterion, from a run that ends as soon as the answer is known.
 
 use super::{Judge, without_truth};
+use crate::measure::bounce_finding::BounceFinding;
+use crate::measure::by_bounces::follow_bounces;
 use crate::measure::by_energy::follow_energy;
 use crate::measure::change::bounded;
 use crate::measure::criterion::{Criterion, FREQUENCY_TOLERANCE, TOLERANCE, VISIBLE};
@@ -56,6 +58,10 @@ impl Judge {
         let mut is_unknown = false;
         for (body, truth) in self.truths.iter().enumerate() {
             let met = match criterion {
+                _ if truth.bounces() => {
+                    let most = criterion.outcome();
+                    self.bounces_within(truth, spec, tick_hz, |found| found.outcome() <= most).await
+                }
                 Criterion::Bounded => self.is_bounded(truth, spec, tick_hz).await,
                 Criterion::LooksRight => self.looks_right(body, spec, tick_hz, None).await,
                 Criterion::Accurate => self.is_accurate(truth, spec, tick_hz).await,
@@ -119,6 +125,22 @@ impl Judge {
             }
         }
         true
+    }
+
+    /// Whether the bounces of a body are as `is_met` demands.
+    async fn bounces_within(
+        &self,
+        truth: &BodyTruth,
+        spec: LaneSpec,
+        tick_hz: TickRate,
+        is_met: impl Fn(&BounceFinding) -> bool,
+    ) -> Result<f64, CriterionMiss> {
+        let run = follow_bounces(truth, spec, tick_hz, self.max_work).await;
+        match run.failure {
+            _ if run.is_too_much => Err(CriterionMiss::Unknown),
+            None if is_met(&run.finding) => Ok(run.evaluations as f64 / run.seconds),
+            _ => Err(CriterionMiss::Fails),
+        }
     }
 
     /// Whether nothing grows that does not grow in truth, over the horizon and in the long run.
@@ -188,6 +210,13 @@ impl Judge {
         for truth in &self.truths {
             let spare = if truth.modes.is_none() { spare } else { 0.0 };
             let most = (1.0 - spare) * TOLERANCE;
+            if truth.bounces() {
+                let within = |found: &BounceFinding| found.error() <= most;
+                if self.bounces_within(truth, spec, tick_hz, within).await.is_err() {
+                    return false;
+                }
+                continue;
+            }
             let run = self.beside_truth(truth, spec, tick_hz, Until::Error(most)).await;
             if !run.is_ok_and(|run| run.error <= most && !run.is_too_much) {
                 return false;

@@ -104,6 +104,7 @@ impl Verdict {
     /// Returns the outcome in a word or two.
     fn word(&self) -> &'static str {
         match (self.outcome(), &self.finding) {
+            (Outcome::Bounded, Finding::Bounced(_)) => "inaccurate",
             (Outcome::Bounded, _) if self.is_bounded().is_none() => "inaccurate",
             (Outcome::NoTruth, Finding::ByEnergy(found)) => found.word(),
             (outcome, _) => outcome.text(),
@@ -181,6 +182,10 @@ impl Verdict {
         let within =
             |quantity, part, bound| VerdictNumber::part(quantity, part, format!("within {bound}"));
         match (self.outcome(), &self.finding) {
+            (_, Finding::Bounced(found)) => {
+                let (quantity, value, unit) = found.number();
+                Some(VerdictNumber::new(quantity, value, unit, found.to_string()))
+            }
             (Outcome::Accurate | Outcome::LooksRight | Outcome::Bounded, _) if chased.is_some() => {
                 let (half_life_s, text) = chased?;
                 Some(VerdictNumber::new("half-life", half_life_s, "s", text))

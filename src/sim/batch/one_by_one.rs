@@ -25,7 +25,7 @@ pub(super) fn one_by_one<C: Copies>(
     let method = solver.method()?;
     let own = |_| {
         let mut own = fresh(method);
-        if let Solver::With(_, other) = solver {
+        if let Some(other) = solver.setting() {
             own.set(other);
         }
         own

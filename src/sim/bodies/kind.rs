@@ -83,6 +83,8 @@ pub struct Kind {
     pub leading: Text,
     /// Whether the truth of the body is a closed form or a reference solution.
     pub truth: Truth,
+    /// Whether such bodies meet walls, whose impacts follow a rule of [`IMPACTS`](crate::sim::IMPACTS).
+    pub has_walls: bool,
     /// Checks combinations of values, each of which is in range.
     pub check: Box<Check>,
     /// Builds a body from these parameter values (see [`Body::with_parameters`](super::Body::with_parameters)), at the
@@ -170,6 +172,7 @@ impl Kind {
             inputs: B::INPUTS,
             leading: "".into(),
             truth: if B::HAS_EXACT { Truth::Exact } else { Truth::Reference },
+            has_walls: B::HAS_WALLS,
             check: Box::new(move |values| check(copy_to_check(), values)),
             build: Box::new(move |values, solver| stepper(copy().with_parameters(values), solver)),
             class: B::CLASS,

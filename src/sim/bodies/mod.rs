@@ -10,6 +10,7 @@ use std::sync::{Arc, LazyLock};
 use super::integrators::Method;
 use follow::LAW_ORDER;
 
+mod ball;
 mod chain;
 mod claims;
 mod custom;
@@ -26,6 +27,7 @@ mod prelude;
 mod ship;
 mod spring;
 
+pub use ball::Ball;
 pub use chain::Chain;
 pub use claims::{ClaimHorizon, FalseClaims};
 pub use custom::{Custom, CustomFault, Energy, Exact, Extras, custom_kind};
@@ -58,6 +60,7 @@ pub static BODIES: LazyLock<Vec<Arc<Kind>>> = LazyLock::new(|| {
         orbit::kind(),
         helm::kind(),
         follow::kind(),
+        ball::kind(),
     ];
     kinds.map(Arc::new).into()
 });

@@ -40,6 +40,11 @@ pub enum StepFailure {
         /// [`MAX_REFERENCE_WORK`]: crate::sim::MAX_REFERENCE_WORK
         most: f64,
     },
+    /// A body met its walls too often in a step.
+    TooManyImpacts {
+        /// The maximum number of impacts in a step.
+        limit: u32,
+    },
     /// The caller asked for an invalid step, whose times are not finite or which has no parts.
     InvalidStep {
         /// The time at the start of the step, in seconds.
@@ -109,6 +114,7 @@ impl fmt::Display for StepFailure {
                 "has no reference solution: {evaluations} evaluations of the acceleration did not reach the end of a \
                  tick; soften the body"
             ),
+            Self::TooManyImpacts { limit } => write!(f, "met its walls more than {limit} times in a step; raise the tick rate"),
             Self::Sticks => f.write_str(
                 "sticks where its force jumps back and forth, as under dry friction at rest, and an equation of motion \
                  has no solution there; make the jump a slope, such as tanh(v/0.01) for sign(v)",

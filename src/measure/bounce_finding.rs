@@ -1,0 +1,86 @@
+//! Findings on a lane's bounces. After the first impact a small error of time is a large one of position. A body with
+//! walls is therefore judged by the heights and times of its bounces.
+
+use std::fmt;
+
+use super::criterion::{TOLERANCE, VISIBLE};
+use super::outcome::Outcome;
+use crate::sim::number::{duration, significant};
+
+/// The bounces of a lane against those of the truth, up to the first input.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct BounceFinding {
+    /// The flight whose height is farthest off, by the impacts before it, with the error in parts of its height.
+    pub height: Option<(u64, f64)>,
+    /// The impact whose time is farthest off, in parts of the flight before it: its number, that error, and the error
+    /// in seconds.
+    pub landing: Option<(u64, f64, f64)>,
+    /// Whether the heights go farther and farther from the truth.
+    pub drifts: bool,
+    /// The time (s) since which the ball is below the floor at the end of the run.
+    pub sinks_at_s: Option<f64>,
+    /// The height in metres to which it still bounces at the end, where the truth rests.
+    pub never_rests: Option<f64>,
+    /// Whether a rule after the step met the wall at its ticks only, so that it had nothing to get wrong.
+    pub is_luck: bool,
+}
+
+impl BounceFinding {
+    /// Returns the largest error of a height or a landing, in parts of the flight.
+    pub fn error(&self) -> f64 {
+        let height = self.height.map_or(0.0, |(_, part)| part.abs());
+        height.max(self.landing.map_or(0.0, |(_, part, _)| part.abs()))
+    }
+
+    pub(super) fn outcome(&self) -> Outcome {
+        let is_high = self.height.is_some_and(|(_, part)| part > 0.0);
+        match self.error() {
+            _ if self.sinks_at_s.is_some() => Outcome::DiesAway,
+            error if self.never_rests.is_none() && error <= TOLERANCE => Outcome::Accurate,
+            error if self.never_rests.is_none() && error <= VISIBLE => Outcome::LooksRight,
+            _ if self.drifts && is_high => Outcome::Grows,
+            _ if self.drifts && self.height.is_some() => Outcome::DiesAway,
+            _ => Outcome::Bounded,
+        }
+    }
+
+    /// Returns the quantity that the words are about, its value and its unit.
+    pub(super) fn number(&self) -> (&'static str, f64, &'static str) {
+        let height = self.height.filter(|(_, part)| part.abs() > TOLERANCE);
+        match (self.sinks_at_s, height, self.never_rests, self.landing) {
+            (Some(at_s), ..) => ("sinks at", at_s, "s"),
+            (_, Some((_, part)), ..) => ("height error", 100.0 * part, "%"),
+            (_, _, Some(height), _) => ("height that stays", height, "m"),
+            (.., Some((_, _, late_s))) => ("delay", late_s, "s"),
+            _ => ("height error", 0.0, "%"),
+        }
+    }
+}
+
+impl fmt::Display for BounceFinding {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let height = self.height.filter(|(_, part)| part.abs() > TOLERANCE);
+        match (self.sinks_at_s, height, self.never_rests, self.landing) {
+            (Some(at_s), ..) => write!(f, "sinks through the floor at {}", duration(at_s))?,
+            (_, Some((after, part)), ..) => {
+                let size = significant(100.0 * part.abs(), 2);
+                let way = if part > 0.0 { "high" } else { "low" };
+                match after {
+                    0 => write!(f, "jumps {size} % too {way}")?,
+                    1 => write!(f, "bounces {size} % too {way}")?,
+                    after => write!(f, "bounces {size} % too {way} after {after}")?,
+                }
+            }
+            (_, _, Some(height), _) => {
+                write!(f, "never rests: {} mm for ever", significant(1e3 * height, 2))?;
+            }
+            (.., Some((after, part, late_s))) if part.abs() > TOLERANCE => {
+                let way = if late_s > 0.0 { "late" } else { "early" };
+                write!(f, "lands {} ms {way} after {after}", significant(1e3 * late_s.abs(), 2))?;
+            }
+            _ if self.error() < 1e-6 => f.write_str("bounces right")?,
+            _ => write!(f, "bounces within {} %", significant(100.0 * self.error(), 2))?,
+        }
+        if self.is_luck { f.write_str(", luck: lands on ticks") } else { Ok(()) }
+    }
+}

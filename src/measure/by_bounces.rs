@@ -1,0 +1,136 @@
+//! Follows a lane's bounces beside those of the truth.
+
+use std::ops::ControlFlow;
+
+use super::bounce_finding::BounceFinding;
+use super::truth::{BodyTruth, FollowedBody, ticks};
+use super::verdict::RunFailure;
+use crate::run::race::StopReason;
+use crate::scene::LaneSpec;
+use crate::sim::{Bounces, Solver, Stepper, TickRate};
+
+/// A flight of fewer ticks is not compared: it is near the end of the bouncing, and its height is known badly.
+const LEAST_TICKS: f64 = 10.0;
+
+/// Height in metres, and part of the highest flight, at and below which a ball lies.
+const LIES: f64 = 1e-4;
+
+/// Seconds below the floor at the end of the run after which a ball has sunk.
+const SUNK_S: f64 = 0.5;
+
+/// Part of a tick's way within which a ball lands on a tick.
+const ON_TICK: f64 = 1e-9;
+
+/// The bounces of a run.
+#[derive(Default)]
+pub(super) struct BounceRun {
+    pub(super) finding: BounceFinding,
+    pub(super) failure: Option<RunFailure>,
+    pub(super) is_too_much: bool,
+    pub(super) evaluations: u64,
+    pub(super) seconds: f64,
+}
+
+/// Runs the body of `truth` under `spec` up to the horizon, or to the first input.
+pub(super) async fn follow_bounces(
+    truth: &BodyTruth,
+    spec: LaneSpec,
+    tick_hz: TickRate,
+    max_work: u64,
+) -> BounceRun {
+    let h = tick_hz.step_s();
+    let until_s = truth.inputs.first().map_or(truth.horizon_s, |input| input.at_s);
+    let end = ticks(until_s, tick_hz);
+    let max_work = max_work.min(truth.meter.budget_left());
+    let mut followed = truth.follow(spec.solver(), spec.substeps, tick_hz).with_max_work(max_work);
+    let (mut run, mut seen) = (BounceRun::default(), Vec::new());
+    let (mut below_since, mut highest, mut highest_last) = (None, 0.0_f64, 0.0_f64);
+    let (mut seconds, mut evaluations) = (0.0, 0);
+    let mut before = Bounces::default();
+    let see = |body: &FollowedBody, tick: u64| {
+        let t = tick_hz.seconds(tick);
+        (seconds, evaluations) = (t, body.stepper.evaluations());
+        let (y, speed) = (body.stepper.q()[0], body.stepper.v()[0].abs());
+        highest = highest.max(y);
+        if t + 1.0 > until_s {
+            highest_last = highest_last.max(y);
+        }
+        below_since = if y < 0.0 { below_since.or(Some(t)) } else { None };
+        let now = body.stepper.bounces().copied().unwrap_or_default();
+        let has_peaked = (now.apex, now.apex_after) != (before.apex, before.apex_after);
+        if now.impacts > before.impacts || has_peaked {
+            seen.push((now, has_peaked, speed));
+        }
+        before = now;
+        ControlFlow::Continue(())
+    };
+    let stop = truth.run_until(&mut followed, end, see).await;
+    (run.seconds, run.evaluations) = (seconds, evaluations);
+    run.is_too_much = stop == StopReason::TooMuchWork;
+    run.failure = RunFailure::of(stop, followed.t());
+    let mut exact = truth.start(Solver::Truth);
+    let found = &mut run.finding;
+    let has_own_time = spec.impact.finds_the_time();
+    found.compare(&*exact, &seen, h, if has_own_time { 0.0 } else { h });
+    found.is_luck &= !has_own_time;
+    found.sinks_at_s = below_since.filter(|since| seconds - since >= SUNK_S);
+    let is_known = exact.advance(0.0, until_s - 1.0, 1).is_ok();
+    let rests = is_known && until_s > 1.0 && exact.q()[0] == 0.0 && exact.v()[0] == 0.0;
+    let is_up = found.sinks_at_s.is_none() && highest_last > LIES * highest.max(1.0);
+    found.never_rests = (rests && is_up).then_some(highest_last);
+    run
+}
+
+/// Returns the duration of the true flight after this many impacts, in seconds.
+fn flight_s(exact: &dyn Stepper, impacts: u64) -> Option<f64> {
+    let [[from_s, _], [to_s, _]] = [exact.true_bounce(impacts)?, exact.true_bounce(impacts + 1)?];
+    Some(to_s - from_s)
+}
+
+impl BounceFinding {
+    /// Compares records of a run, each with whether it has a new peak and with the speed then, with the truth from its
+    /// start, at ticks of `h` (s). A rule that handles an impact at the end of a tick may be late by up to `waits` (s).
+    fn compare(&mut self, exact: &dyn Stepper, seen: &[(Bounces, bool, f64)], h: f64, waits: f64) {
+        let is_long =
+            |impacts| flight_s(exact, impacts).filter(|flight_s| *flight_s >= LEAST_TICKS * h);
+        let (mut heights, mut landings) = (Vec::new(), 0);
+        let mut impacts = 0;
+        self.is_luck = true;
+        for &(now, has_peaked, speed) in seen {
+            if has_peaked
+                && let (Some(apex), Some([_, wanted])) =
+                    (now.apex, exact.true_bounce(now.apex_after))
+                && is_long(now.apex_after).is_some()
+            {
+                heights.push((now.apex_after, apex / wanted - 1.0));
+            }
+            if now.impacts == impacts {
+                continue;
+            }
+            impacts = now.impacts;
+            if let (Some(flight_s), Some([at_s, _])) =
+                (is_long(impacts - 1), exact.true_bounce(impacts))
+            {
+                let late_s = now.landed_at_s - at_s;
+                let late_s = late_s - late_s.clamp(0.0, waits);
+                let part = late_s / flight_s;
+                if self.landing.is_none_or(|(_, worst, _)| part.abs() > worst.abs()) {
+                    self.landing = Some((impacts, part, late_s));
+                }
+                // The first impact is where the start has put it.
+                self.is_luck &= impacts == 1 || now.beyond <= ON_TICK * speed * h;
+                landings += 1;
+            }
+        }
+        self.is_luck &= landings > 2;
+        let farther = |worst: (u64, f64), next: &(u64, f64)| {
+            if next.1.abs() > worst.1.abs() { *next } else { worst }
+        };
+        self.height = heights.first().map(|first| heights.iter().fold(*first, farther));
+        let third = heights.len().div_ceil(3);
+        let mean =
+            |part: &[(u64, f64)]| part.iter().map(|it| it.1).sum::<f64>() / part.len() as f64;
+        self.drifts = heights.len() > 2
+            && mean(&heights[heights.len() - third..]).abs() > mean(&heights[..third]).abs();
+    }
+}

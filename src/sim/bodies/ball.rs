@@ -1,0 +1,367 @@
+//! A ball above a floor, or between two walls: `y″ = -g - c y′`, and `y′ → -e y′` at a wall.
+//!
+//! The true impacts under gravity are a geometric series, so that any of them is known without those before it. With
+//! drag each flight is solved in turn.
+
+use super::prelude::*;
+use crate::sim::impact::Wall;
+
+pub(super) fn kind() -> Kind {
+    Kind {
+        id: "ball",
+        about: "y″ = -g - c y′ above the floor; y′ → -e y′ at it: a ball that bounces".into(),
+        all_coordinates: vec![Coordinate::new("y", "v", "m")].into(),
+        leading: "gravity_m_per_s2".into(),
+        ..Kind::checked(Ball::default(), |mut ball, values| ball.check(values))
+    }
+}
+
+type Of = ParameterOf<Ball>;
+
+const CEILING: &str = "ceiling_m";
+
+const PARAMETERS: [Of; 7] = [
+    Of::number("height_m", Range::NON_NEGATIVE, |ball| &mut ball.height)
+        .at_start()
+        .named("height at start")
+        .about("the height of the lowest point at the start"),
+    Of::start("speed_m_per_s", 0.0, |ball| &mut ball.speed)
+        .named("speed at start")
+        .about("the velocity at the start; up is positive"),
+    Of::number("restitution", Range::Between(0.0, 1.0), |ball| &mut ball.restitution)
+        .or(0.8)
+        .symbol("e")
+        .about("the part of the speed that an impact leaves; a bumper that adds energy is a law"),
+    Of::number("gravity_m_per_s2", Range::NON_NEGATIVE, |ball| &mut ball.gravity)
+        .or(9.81)
+        .symbol("g")
+        .about("the acceleration of gravity; 0 only between two walls"),
+    Of::number("drag_per_s", Range::NON_NEGATIVE, |ball| &mut ball.drag)
+        .or(0.0)
+        .symbol("c")
+        .about("the drag: deceleration per speed"),
+    Of::number(CEILING, Range::NON_NEGATIVE, |ball| &mut ball.ceiling)
+        .or(0.0)
+        .at_start()
+        .about("the height of a second wall; 0 is none, and without gravity there must be one"),
+    Of::number("kick_m_per_s", Range::ANY, |ball| &mut ball.kick)
+        .or(4.905)
+        .symbol("K")
+        .about("the change of velocity by one kick"),
+];
+
+/// √k of a soft wall, in radians per second, at 4.77 Hz.
+const SOFT: f64 = 30.0;
+
+/// The largest number of flights that a truth follows one by one; after them the ball rests.
+const MAX_FLIGHTS: u32 = 100_000;
+
+/// A flight shorter than this, in seconds, ends the bouncing.
+const SHORTEST_FLIGHT_S: f64 = 1e-9;
+
+/// A ball of 1 kg. Its coordinate is the height of its lowest point above the floor, in metres.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Ball {
+    /// Height at the start, in metres.
+    pub height: f64,
+    /// Velocity at the start, in metres per second, upwards.
+    pub speed: f64,
+    /// e, the part of the speed that an impact leaves, 0 to 1.
+    pub restitution: f64,
+    /// g, in m/s²; 0 only with a ceiling.
+    pub gravity: f64,
+    /// c, the drag, per second; 0 with a ceiling.
+    pub drag: f64,
+    /// Height of a second wall, in metres; 0 if there is none.
+    pub ceiling: f64,
+    /// K, the change of velocity by one kick, in metres per second.
+    pub kick: f64,
+    /// Whether the walls are springs, as under the rule `penalty`.
+    pub is_soft: bool,
+}
+
+impl Ball {
+    fn check(&mut self, values: &[f64]) -> Result<(), Fault> {
+        *self = std::mem::take(self).with_parameters(values);
+        let fault = |key: &'static str, what: &str, remedy: &str| {
+            Err(Fault { key: key.into(), what: what.into(), remedy: remedy.into() })
+        };
+        let has_ceiling = self.ceiling > 0.0;
+        if has_ceiling && self.gravity > 0.0 {
+            return fault(
+                "gravity_m_per_s2",
+                "the truth between two walls is known without gravity only",
+                "write `gravity_m_per_s2 = 0.0`, or remove `ceiling_m`",
+            );
+        }
+        if has_ceiling && self.drag > 0.0 {
+            return fault(
+                "drag_per_s",
+                "the truth between two walls is known without drag only",
+                "remove `drag_per_s`, or `ceiling_m`",
+            );
+        }
+        if !has_ceiling && self.gravity == 0.0 {
+            return fault(
+                "gravity_m_per_s2",
+                "without gravity the ball never comes back",
+                "write a number greater than 0, or a second wall such as `ceiling_m = 3.0`",
+            );
+        }
+        if has_ceiling && self.height > self.ceiling {
+            return fault("height_m", "the ball starts beyond `ceiling_m`", "start it below");
+        }
+        Ok(())
+    }
+
+    /// Returns the state after a flight of `dt` (s) through the air.
+    fn fly(&self, [y, v]: [f64; 2], dt: f64) -> [f64; 2] {
+        let x = self.drag * dt;
+        let phi = if x == 0.0 { 1.0 } else { -libm::expm1(-x) / x };
+        let g = self.gravity;
+        [y + v * dt * phi - g * dt * dt * psi(x), v * (1.0 - x * phi) - g * dt * phi]
+    }
+
+    /// Returns the time in seconds from a state at or above the floor to the next impact.
+    fn fall_s(&self, [y, v]: [f64; 2]) -> f64 {
+        let at_floor = (v * v + 2.0 * self.gravity * y).sqrt();
+        // The other form of the root has no difference of near numbers.
+        let free = if v < 0.0 { 2.0 * y / (at_floor - v) } else { (v + at_floor) / self.gravity };
+        if self.drag == 0.0 || free == 0.0 {
+            return free;
+        }
+        let (mut low, mut high) = (0.0, free);
+        while self.fly([y, v], high)[0] > 0.0 {
+            (low, high) = (high, 2.0 * high);
+        }
+        let mut t = high;
+        for _ in 0..60 {
+            let [height, speed] = self.fly([y, v], t);
+            if height <= 0.0 {
+                high = t;
+            } else {
+                low = t;
+            }
+            let next = t - height / speed;
+            let next = if low < next && next < high { next } else { low + (high - low) / 2.0 };
+            if next == t || next == low || next == high {
+                break;
+            }
+            t = next;
+        }
+        t
+    }
+
+    /// Returns the first impact from a state under gravity alone: its time (s) and speed.
+    fn first(&self, from: [f64; 2]) -> [f64; 2] {
+        let [y, v] = from;
+        [self.fall_s(from), (v * v + 2.0 * self.gravity * y).sqrt()]
+    }
+
+    /// Returns the state `dt` (s) after `from` above a floor, without drag.
+    fn bounced(&self, from: [f64; 2], dt: f64) -> [f64; 2] {
+        let (g, e) = (self.gravity, self.restitution);
+        let [t1, v1] = self.first(from);
+        let since = dt - t1;
+        if since < 0.0 {
+            return self.fly(from, dt);
+        }
+        if e == 0.0 || v1 == 0.0 {
+            return [0.0; 2];
+        }
+        if e == 1.0 {
+            let flight = 2.0 * v1 / g;
+            let n = libm::floor(since / flight);
+            return self.fly([0.0, v1], since - n * flight);
+        }
+        let zeno = 2.0 * e * v1 / (g * (1.0 - e));
+        if since >= zeno {
+            return [0.0; 2];
+        }
+        let log = libm::log(e);
+        let near = libm::floor(libm::log1p(-since / zeno) / log).max(0.0);
+        // The power of e that the flight begins with, and the time since its beginning.
+        let flight = |n: f64| (libm::exp(n * log), since + zeno * libm::expm1(n * log));
+        let earlier = if flight(near).1 < 0.0 { (near - 1.0).max(0.0) } else { near };
+        let n = if flight(near + 1.0).1 >= 0.0 { near + 1.0 } else { earlier };
+        let (power, time) = flight(n);
+        self.fly([0.0, power * e * v1], time.max(0.0))
+    }
+
+    /// Returns the state `dt` (s) after `from` above a floor, flight by flight.
+    fn dragged(&self, mut from: [f64; 2], dt: f64) -> [f64; 2] {
+        let (mut left, mut lost) = (dt, 0.0);
+        for _ in 0..MAX_FLIGHTS {
+            let flight = self.fall_s(from);
+            if left < flight {
+                return self.fly(from, left);
+            }
+            let [_, v] = self.fly(from, flight);
+            // The rounding of each difference is carried along.
+            let next = left - (flight + lost);
+            lost = (next - left) + (flight + lost);
+            (left, from) = (next, [0.0, -self.restitution * v]);
+            if 2.0 * from[1] < self.gravity * SHORTEST_FLIGHT_S {
+                break;
+            }
+        }
+        [0.0; 2]
+    }
+
+    /// Returns the state `dt` (s) after `from` between two walls, without forces.
+    fn reflected(&self, [y, v]: [f64; 2], dt: f64) -> [f64; 2] {
+        let (wide, e) = (self.ceiling, self.restitution);
+        let to_wall = if v > 0.0 { wide - y } else { y };
+        let speed = v.abs();
+        if speed * dt < to_wall || speed == 0.0 {
+            return [y + v * dt, v];
+        }
+        let way = |beyond: f64, is_up: bool, speed: f64| match is_up {
+            true => [beyond, speed],
+            false => [wide - beyond, -speed],
+        };
+        if e == 1.0 {
+            let beyond = speed * dt - to_wall;
+            let n = libm::floor(beyond / wide);
+            return way(beyond - n * wide, (v < 0.0) == (n % 2.0 == 0.0), speed);
+        }
+        let (mut left, mut speed, mut is_up) = (dt - to_wall / speed, e * speed, v < 0.0);
+        for _ in 0..MAX_FLIGHTS {
+            if speed * left < wide {
+                break;
+            }
+            (left, speed, is_up) = (left - wide / speed, e * speed, !is_up);
+        }
+        way((speed * left).min(wide), is_up, speed)
+    }
+}
+
+/// Returns (x - 1 + e⁻ˣ)/x², from its series where the difference would lose digits.
+fn psi(x: f64) -> f64 {
+    if x >= 0.5 {
+        return (x + libm::expm1(-x)) / (x * x);
+    }
+    // The terms fall below an ulp before the seventeenth.
+    let series = (2..18).rev().fold(0.0, |sum, n| (1.0 - x * sum) / f64::from(n + 1));
+    (1.0 - x * series) / 2.0
+}
+
+impl System for Ball {
+    type Vector = f64;
+
+    #[inline]
+    fn acceleration(&self, _t: f64, y: &f64, v: &f64, a: &mut f64) {
+        *a = -self.gravity - self.drag * v;
+        if self.is_soft {
+            let log = libm::log(self.restitution.max(1e-300));
+            let turn = std::f64::consts::PI;
+            let damping = -2.0 * SOFT * log / (turn * turn + log * log).sqrt();
+            let push = |depth: f64, v: f64| (SOFT * SOFT * depth - damping * v).max(0.0);
+            if *y < 0.0 {
+                *a += push(-y, *v);
+            } else if self.ceiling > 0.0 && *y > self.ceiling {
+                *a -= push(y - self.ceiling, -v);
+            }
+        }
+    }
+}
+
+impl Body for Ball {
+    const CLASS: BodyClass = BodyClass::NoEngine(
+        "an engine bounces a ball by a rule of its own, with slop and thresholds",
+    );
+    const HAS_EXACT: bool = true;
+    const HAS_WALLS: bool = true;
+    const PARAMETERS: &'static [Of] = &PARAMETERS;
+
+    fn start(&self) -> State<f64> {
+        State { q: self.height, v: self.speed }
+    }
+
+    fn walls(&self, _t: f64) -> [Option<Wall>; 2] {
+        let wall = |at| Wall { at, velocity: 0.0, restitution: self.restitution };
+        [Some(wall(0.0)), (self.ceiling > 0.0).then(|| wall(self.ceiling))]
+    }
+
+    fn soften(&mut self, is_soft: bool) {
+        self.is_soft = is_soft;
+    }
+
+    fn bounce(&self, from: &State<f64>, impact: u64) -> Option<[f64; 2]> {
+        let (g, e) = (self.gravity, self.restitution);
+        let mut at = [from.q.max(0.0), from.v];
+        if self.ceiling > 0.0 {
+            let to_wall = if from.v > 0.0 { self.ceiling - at[0] } else { at[0] };
+            let way = to_wall + self.ceiling * impact.saturating_sub(1) as f64;
+            return (e == 1.0 && from.v != 0.0).then(|| [way / from.v.abs(), f64::NAN]);
+        }
+        // The drag stops the way up where e^(c t) = 1 + c v/g.
+        let up = |v: f64| match self.drag {
+            0.0 => v / g,
+            drag => libm::log1p(drag * v / g) / drag,
+        };
+        if impact == 0 {
+            return Some([0.0, self.fly(at, up(at[1].max(0.0)))[0]]);
+        }
+        if self.drag > 0.0 {
+            let mut t = 0.0;
+            for _ in 0..impact.min(u64::from(MAX_FLIGHTS)) {
+                let flight = self.fall_s(at);
+                t += flight;
+                at = [0.0, -e * self.fly(at, flight)[1]];
+            }
+            return Some([t, self.fly(at, up(at[1]))[0]]);
+        }
+        let [t1, v1] = self.first(at);
+        let n = (impact - 1) as f64;
+        let late = match e {
+            1.0 => n * (2.0 * v1 / g),
+            0.0 if impact > 1 => return None,
+            0.0 => 0.0,
+            _ => -2.0 * e * v1 / (g * (1.0 - e)) * libm::expm1(n * libm::log(e)),
+        };
+        let after = libm::pow(e, n + 1.0) * v1;
+        Some([t1 + late, after * after / (2.0 * g)])
+    }
+
+    /// A state beyond a wall counts as one at the wall.
+    fn exact_into(&self, _t: f64, dt: f64, from: &State<f64>, to: &mut State<f64>) {
+        let highest = if self.ceiling > 0.0 { self.ceiling } else { f64::INFINITY };
+        let from = [from.q.clamp(0.0, highest), from.v];
+        let [y, v] = if self.ceiling > 0.0 {
+            self.reflected(from, dt)
+        } else if self.drag > 0.0 {
+            self.dragged(from, dt)
+        } else {
+            self.bounced(from, dt)
+        };
+        *to = State { q: y.clamp(0.0, highest), v };
+    }
+
+    fn exact_error(&self, _t: f64, dt: f64, from: &State<f64>, _to: &State<f64>) -> [f64; 2] {
+        let fastest = from.v.abs() + (2.0 * self.gravity * from.q.max(0.0)).sqrt();
+        let (late, rounding) = (8.0 * f64::EPSILON * dt, 8.0 * f64::EPSILON);
+        let highest = from.q.abs() + fastest * fastest / (2.0 * self.gravity).max(1.0);
+        let pull = self.gravity + self.drag * fastest;
+        [rounding * highest + late * fastest, rounding * fastest + late * pull]
+    }
+
+    fn energy(&self, state: &State<f64>) -> Option<f64> {
+        let is_kept = self.restitution == 1.0 && self.drag == 0.0;
+        is_kept.then(|| state.v * state.v / 2.0 + self.gravity * state.q)
+    }
+
+    fn mechanical_energy(&self, state: &State<f64>) -> Option<[f64; 2]> {
+        Some([state.v * state.v / 2.0, self.gravity * state.q])
+    }
+
+    fn input(&mut self, input: Input, state: &mut State<f64>) -> bool {
+        let Input::Kick(times) = input else { return false };
+        state.v += times * self.kick;
+        true
+    }
+
+    fn place(&self, y: &f64) -> DVec2 {
+        if self.ceiling > 0.0 { DVec2::new(*y, 0.0) } else { DVec2::new(0.0, *y) }
+    }
+}

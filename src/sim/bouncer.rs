@@ -1,0 +1,380 @@
+//! The steps of a body that meets walls: a method, and the rule for impacts after or within its steps.
+
+use super::body::Body;
+use super::impact::{Bounces, Change as Turn, Impact, Locating, Rule, Wall};
+use super::integrators::{Problem, StepFailure, Stepped};
+use super::propagator::Propagator;
+use super::state::{State, Vector};
+use super::stepper::Change;
+use super::system::{Counted, StateOf, System};
+
+/// The largest number of impacts within a step. A body that falls back on its wall so often in a step rests.
+const MAX_IMPACTS: u32 = 1000;
+
+/// The largest number of trials for the time of an impact.
+const MAX_TRIALS: u32 = 60;
+
+/// A flight shorter than this, in seconds, ends the bouncing: the error is below 1e-17 m.
+const SHORTEST_FLIGHT_S: f64 = 1e-9;
+
+/// A method with a rule for impacts. Bodies without walls are stepped by the method itself.
+#[derive(Clone)]
+pub(super) struct Bouncer<P, V> {
+    inner: P,
+    /// Makes trial steps, so that the memory of `inner` stays.
+    probe: P,
+    rule: Rule,
+    bounces: Bounces,
+    /// The length of the last tick in seconds.
+    last_h: f64,
+    from: State<V>,
+    trial: State<V>,
+}
+
+/// A wall met by a body: the lower one has side 1, the upper one side -1.
+#[derive(Clone, Copy)]
+struct Contact {
+    side: f64,
+    wall: Wall,
+}
+
+impl Contact {
+    /// Returns the wall beyond which a body is at time `t` (s).
+    fn beyond<B: Body>(body: &B, t: f64, y: &StateOf<B>) -> Option<Self> {
+        Self::all(body, t).find(|contact| contact.height(y) < 0.0)
+    }
+
+    fn all<B: Body>(body: &B, t: f64) -> impl Iterator<Item = Self> {
+        let sides = body.walls(t).into_iter().zip([1.0, -1.0]);
+        sides.filter_map(|(wall, side)| Some(Self { side, wall: wall? }))
+    }
+
+    /// Returns the wall of the same side at another time.
+    fn at<B: Body>(self, body: &B, t: f64) -> Self {
+        Self::all(body, t).find(|other| other.side == self.side).unwrap_or(self)
+    }
+
+    /// Returns the distance from the wall, negative beyond it.
+    fn height<V: Vector>(self, y: &State<V>) -> f64 {
+        self.side * (y.q.components()[0] - self.wall.at)
+    }
+
+    /// Returns the velocity away from the wall.
+    fn speed<V: Vector>(self, y: &State<V>) -> f64 {
+        self.side * (y.v.components()[0] - self.wall.velocity)
+    }
+
+    fn set_height<V: Vector>(self, height: f64, y: &mut State<V>) {
+        y.q.components_mut()[0] = self.wall.at + self.side * height;
+    }
+
+    fn set_speed<V: Vector>(self, speed: f64, y: &mut State<V>) {
+        y.v.components_mut()[0] = self.wall.velocity + self.side * speed;
+    }
+
+    /// Returns the acceleration away from the wall.
+    fn push<B: Body>(self, body: &Counted<B>, t: f64, y: &StateOf<B>) -> f64 {
+        let mut a = y.v.clone();
+        body.acceleration(t, &y.q, &y.v, &mut a);
+        self.side * a.components()[0]
+    }
+}
+
+impl<P: Clone, V: Vector> Bouncer<P, V> {
+    pub(super) fn new(inner: P, impact: &Impact, bounces: Bounces, like: &State<V>) -> Self {
+        let probe = inner.clone();
+        let (from, trial) = (like.clone(), like.clone());
+        Self { inner, probe, rule: impact.rule, bounces, last_h: 0.0, from, trial }
+    }
+
+    /// Makes one step of the method, with its impacts.
+    fn part<B>(&mut self, body: &Counted<B>, t: f64, h: f64, y: &mut StateOf<B>) -> Stepped
+    where
+        B: Body<Vector = V>,
+        P: Propagator<B>,
+    {
+        if self.rule == Rule::BeforeTick
+            && let Some(contact) = Contact::beyond(&body.system, t, y)
+            && contact.speed(y) < 0.0
+        {
+            let speed = contact.speed(y);
+            let back = -contact.wall.restitution * speed;
+            let gained = contact.push(body, t, y) * h;
+            contact.set_speed(back - gained, y);
+            self.land(body, t, y, [speed, back]);
+            self.bounces.beyond = -contact.height(y);
+            self.bounces.add(contact.height(y));
+        }
+        let is_within = matches!(self.rule, Rule::Within(_) | Rule::Swept);
+        if is_within && let Some(contact) = Self::rest(body, t, y) {
+            let contact = contact.at(&body.system, t + h);
+            contact.set_height(0.0, y);
+            contact.set_speed(0.0, y);
+            return Ok(());
+        }
+        self.from.assign(y);
+        self.inner.step(body, t, h, 1, y)?;
+        let Some(contact) = Contact::beyond(&body.system, t + h, y) else { return Ok(()) };
+        match self.rule {
+            Rule::Within(locating) => return self.locate(locating, body, [t, h], y),
+            Rule::Swept => self.sweep(contact, body, [t, h], y),
+            Rule::After(turn) => {
+                let speed = contact.speed(y);
+                if turn == Turn::Velocity && speed >= 0.0 {
+                    return Ok(());
+                }
+                let height = contact.height(y);
+                let mut back = -contact.wall.restitution * speed;
+                match turn {
+                    Turn::Velocity | Turn::VelocityBlind => {}
+                    Turn::Clamp => contact.set_height(0.0, y),
+                    Turn::Mirror => contact.set_height(-height, y),
+                    Turn::Energy => {
+                        let gained = 2.0 * contact.push(body, t + h, y) * height;
+                        let at_wall = (speed * speed - gained).max(0.0).sqrt();
+                        back = contact.wall.restitution * at_wall;
+                        contact.set_height(0.0, y);
+                    }
+                }
+                contact.set_speed(back, y);
+                self.land(body, t + h, y, [speed, back]);
+                self.bounces.beyond = -height;
+            }
+            // A soft floor is entered at the end of the step.
+            Rule::Penalty if contact.height(&self.from) >= 0.0 => {
+                self.bounces.land(t + h, [contact.speed(y), f64::NAN]);
+            }
+            Rule::BeforeTick | Rule::Penalty => {}
+        }
+        Ok(())
+    }
+
+    /// Records an impact at time `t` (s), after which the method starts afresh.
+    fn land<B>(&mut self, body: &Counted<B>, t: f64, y: &StateOf<B>, speeds: [f64; 2])
+    where
+        B: Body<Vector = V>,
+        P: Propagator<B>,
+    {
+        self.bounces.land(t, speeds);
+        self.inner.restart(t, false, &body.system, y);
+    }
+
+    /// Returns the wall against which the force presses the body at rest.
+    fn rest<B: Body<Vector = V>>(body: &Counted<B>, t: f64, y: &State<V>) -> Option<Contact> {
+        let is_at_rest = |it: &Contact| it.height(y) == 0.0 && it.speed(y) == 0.0;
+        let contact = Contact::all(&body.system, t).find(is_at_rest)?;
+        (contact.push(body, t, y) < 0.0).then_some(contact)
+    }
+
+    /// Handles the impact of a step on the straight line, and goes straight on.
+    fn sweep<B>(&mut self, contact: Contact, body: &Counted<B>, [t, h]: [f64; 2], y: &mut State<V>)
+    where
+        B: Body<Vector = V>,
+        P: Propagator<B>,
+    {
+        let part = chord(contact.at(&body.system, t).height(&self.from), contact.height(y));
+        let speed = contact.speed(y);
+        let back = -contact.wall.restitution * speed;
+        contact.set_height((back * (h - part * h)).max(0.0), y);
+        contact.set_speed(back, y);
+        self.land(body, t + part * h, y, [speed, back]);
+    }
+
+    /// Handles the impacts of a step from `self.from` that ended at `y`, beyond a wall.
+    fn locate<B>(
+        &mut self,
+        locating: Locating,
+        body: &Counted<B>,
+        [mut t, mut left]: [f64; 2],
+        y: &mut State<V>,
+    ) -> Stepped
+    where
+        B: Body<Vector = V>,
+        P: Propagator<B>,
+    {
+        for impacts in 1.. {
+            let Some(end) = Contact::beyond(&body.system, t + left, y) else { break };
+            let begin = end.at(&body.system, t);
+            let part = self.hit(locating, body, [t, left], [begin, end], y)?;
+            let (hit_at, rest) = (t + part * left, left - part * left);
+            let contact = end.at(&body.system, hit_at);
+            let before = contact.speed(y);
+            let speed = contact.wall.restitution * before.abs();
+            contact.set_height(0.0, y);
+            contact.set_speed(speed, y);
+            self.land(body, hit_at, y, [before, speed]);
+            let push = contact.push(body, hit_at, y);
+            if push < 0.0 && (2.0 * speed < -push * SHORTEST_FLIGHT_S || impacts == MAX_IMPACTS) {
+                let contact = contact.at(&body.system, hit_at + rest);
+                contact.set_height(0.0, y);
+                contact.set_speed(0.0, y);
+                break;
+            }
+            if impacts == MAX_IMPACTS {
+                return Err(StepFailure::TooManyImpacts { limit: MAX_IMPACTS });
+            }
+            if rest <= 0.0 {
+                break;
+            }
+            (t, left) = (hit_at, rest);
+            self.from.assign(y);
+            self.inner.step(body, t, left, 1, y)?;
+        }
+        Ok(())
+    }
+
+    /// Finds the part of a step at which the body meets the wall, and puts `y` into the state there.
+    fn hit<B>(
+        &mut self,
+        locating: Locating,
+        body: &Counted<B>,
+        [t, h]: [f64; 2],
+        [begin, end]: [Contact; 2],
+        y: &mut State<V>,
+    ) -> Result<f64, StepFailure>
+    where
+        B: Body<Vector = V>,
+        P: Propagator<B>,
+    {
+        let [start, last] = [begin.height(&self.from), end.height(y)];
+        let [v0, v1] = [begin.speed(&self.from), end.speed(y)];
+        if start < 0.0 || start == 0.0 && v0 <= 0.0 {
+            y.assign(&self.from);
+            return Ok(0.0);
+        }
+        // After an impact the body leaves the wall, and its way up is no impact.
+        let push = if start == 0.0 { begin.push(body, t, &self.from) } else { 0.0 };
+        let up = if push < 0.0 { (v0 / -push / h).min(0.5) } else { 0.0 };
+        match locating {
+            Locating::ByChord | Locating::BySpeedAtEnd => {
+                let part = if start == 0.0 { 1.0 } else { chord(start, last) };
+                if locating == Locating::ByChord {
+                    end.set_speed(v0 + part * (v1 - v0), y);
+                }
+                Ok(part)
+            }
+            Locating::ByCubic => {
+                let [a, b] = [v0 * h, v1 * h];
+                let cubic = |s: f64| {
+                    let (c, d) = (3.0 * (last - start) - 2.0 * a - b, 2.0 * (start - last) + a + b);
+                    [start + s * (a + s * (c + s * d)), a + s * (2.0 * c + s * 3.0 * d)]
+                };
+                let part = root([start, last], up, |s| Ok(cubic(s)[0]))?;
+                end.set_speed(cubic(part)[1] / h, y);
+                Ok(part)
+            }
+            Locating::ByMethod => {
+                let Self { probe, from, trial, .. } = self;
+                let part = root([start, last], up, |s| {
+                    trial.assign(from);
+                    probe.restart(t, false, &body.system, from);
+                    probe.step(body, t, s * h, 1, trial)?;
+                    Ok(end.at(&body.system, t + s * h).height(trial))
+                })?;
+                y.assign(trial);
+                Ok(part)
+            }
+        }
+    }
+}
+
+/// Returns the zero of the straight line from `start`, 0 or more, to `last`, which is negative.
+fn chord(start: f64, last: f64) -> f64 {
+    (start / (start - last)).clamp(0.0, 1.0)
+}
+
+/// Returns the part of a step at which a height that is `start` at 0 and `last` at 1 falls through 0, by the method of
+/// Illinois. The last call of `height` is at the result. A start at 0 has a positive height at `up` or earlier.
+fn root(
+    [start, last]: [f64; 2],
+    up: f64,
+    mut height: impl FnMut(f64) -> Result<f64, StepFailure>,
+) -> Result<f64, StepFailure> {
+    let (mut low, mut above) = (0.0, start);
+    let (mut high, mut below) = (1.0, last);
+    let mut trials = 0;
+    if start == 0.0 {
+        low = up;
+        above = height(low)?;
+        while above <= 0.0 && trials < MAX_TRIALS {
+            (high, below) = (low, above);
+            low /= 2.0;
+            above = height(low)?;
+            trials += 1;
+        }
+    }
+    let enough = f64::EPSILON * (above - below);
+    let mut before = 0.0;
+    let mut part = low;
+    while trials < MAX_TRIALS {
+        trials += 1;
+        part = (low * below - high * above) / (below - above);
+        if !(low < part && part < high) {
+            part = low + (high - low) / 2.0;
+        }
+        let found = height(part)?;
+        if found.abs() <= enough || part == low || part == high {
+            break;
+        }
+        if found > 0.0 {
+            (low, above) = (part, found);
+            below = if before > 0.0 { below / 2.0 } else { below };
+        } else {
+            (high, below) = (part, found);
+            above = if before < 0.0 { above / 2.0 } else { above };
+        }
+        before = found;
+    }
+    Ok(part)
+}
+
+impl<B, P> Propagator<B> for Bouncer<P, B::Vector>
+where
+    B: Body,
+    P: Propagator<B> + Clone,
+{
+    fn step(&mut self, body: &Counted<B>, t: f64, h: f64, n: u32, y: &mut StateOf<B>) -> Stepped {
+        if self.last_h != h {
+            self.bounces.part();
+        }
+        self.last_h = h;
+        let part = h / f64::from(n);
+        for i in 0..n {
+            self.part(body, t + part * f64::from(i), part, y)?;
+        }
+        if let Some(contact) = Contact::all(&body.system, t + h).next() {
+            self.bounces.add(contact.height(y));
+        }
+        Ok(())
+    }
+
+    fn jump(&mut self, t: f64, change: Change<'_>, body: &mut B, state: &mut StateOf<B>) -> bool {
+        let is_changed = self.inner.jump(t, change, body, state);
+        if is_changed {
+            self.bounces.restart();
+        }
+        is_changed
+    }
+
+    fn restart(&mut self, t: f64, is_placing: bool, body: &B, state: &StateOf<B>) {
+        self.inner.restart(t, is_placing, body, state);
+    }
+
+    fn try_step(
+        &self,
+        of: &Problem<B::Vector>,
+        step: [f64; 2],
+        n: u32,
+        y: &mut StateOf<B>,
+    ) -> Option<Stepped> {
+        self.inner.try_step(of, step, n, y)
+    }
+
+    fn lost_time(&self) -> f64 {
+        self.inner.lost_time()
+    }
+
+    fn bounces(&self) -> Option<Bounces> {
+        Some(self.bounces)
+    }
+}

@@ -1,0 +1,199 @@
+//! Impacts of a body on its walls: the walls, the rules by which the line after a step handles them, and a record.
+
+use std::fmt;
+
+/// A wall, which the first coordinate of a body cannot pass.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Wall {
+    /// The coordinate of the wall.
+    pub at: f64,
+    /// The velocity of the wall.
+    pub velocity: f64,
+    /// e, the part of the speed relative to the wall that an impact leaves, 0 to 1.
+    pub restitution: f64,
+}
+
+/// A rule for the impacts of a body, a second switch beside its method.
+pub struct Impact {
+    /// Name in scenes and on the command line.
+    pub id: &'static str,
+    /// What the rule does, in one line.
+    pub about: &'static str,
+    /// κ of the rule: under gravity g, an impact adds (s + κ) g h to the speed, with s of the method and h the step.
+    /// `None` if the rule has no impacts.
+    pub kappa: Option<f64>,
+    /// The lines of the rule, in the language of a method of your own, for e = 0.8 and a floor at 0.
+    pub code: &'static str,
+    pub(super) rule: Rule,
+}
+
+impl Impact {
+    /// Whether the rule finds the time of an impact within the step; others handle it at the end of the step.
+    pub fn finds_the_time(&self) -> bool {
+        matches!(self.rule, Rule::Within(_) | Rule::Swept)
+    }
+}
+
+impl PartialEq for Impact {
+    fn eq(&self, other: &Self) -> bool {
+        self.rule == other.rule
+    }
+}
+
+impl fmt::Debug for Impact {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.id)
+    }
+}
+
+/// How an impact is handled.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Rule {
+    /// Finds the impact within the step, and steps the rest by the method.
+    Within(Locating),
+    /// The straight line gives the time; the rest is straight with the new velocity.
+    Swept,
+    /// Changes the state after the step that ends beyond the wall.
+    After(Change),
+    /// Before the next step, by the velocity from before the force of that step.
+    BeforeTick,
+    /// The wall is a spring.
+    Penalty,
+}
+
+/// How an impact within a step is found.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Locating {
+    /// By shorter steps of the method.
+    ByMethod,
+    /// On the cubic through both ends of the step.
+    ByCubic,
+    /// On the straight line, which also gives the speed.
+    ByChord,
+    /// On the straight line, with the speed at the end of the step.
+    BySpeedAtEnd,
+}
+
+/// What a rule changes after a step.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Change {
+    /// The velocity, if the body still moves into the wall.
+    Velocity,
+    /// The velocity, always.
+    VelocityBlind,
+    /// The velocity, and the coordinate is the wall's.
+    Clamp,
+    /// The velocity, and the coordinate is mirrored.
+    Mirror,
+    /// As a clamp, with the speed that the energy at the wall gives.
+    Energy,
+}
+
+macro_rules! impacts {
+    ($($id:literal $kappa:expr, $rule:expr, $about:literal;)+) => {
+        &[$(Impact {
+            id: $id,
+            about: $about,
+            kappa: $kappa,
+            code: include_str!(concat!("../../assets/impacts/", $id, ".step")),
+            rule: $rule,
+        },)+]
+    };
+}
+
+/// Every rule for impacts. The first is the default.
+pub static IMPACTS: &[Impact] = impacts! {
+    "locate" Some(0.0), Rule::Within(Locating::ByMethod),
+        "finds the impact within the step by shorter steps of the method, which then steps the rest";
+    "velocity" Some(0.0), Rule::After(Change::Velocity),
+        "below the floor and falling: only the velocity is turned";
+    "velocity-blind" Some(0.0), Rule::After(Change::VelocityBlind),
+        "below the floor: the velocity is turned, even if it points up already";
+    "clamp" Some(0.5), Rule::After(Change::Clamp),
+        "below the floor: back to the floor, and the velocity is turned";
+    "mirror" Some(1.0), Rule::After(Change::Mirror),
+        "below the floor: as far above it, and the velocity is turned";
+    "energy" Some(0.0), Rule::After(Change::Energy),
+        "as clamp, with the speed that the energy at the floor gives";
+    "before-tick" Some(1.0), Rule::BeforeTick,
+        "at the next tick, the velocity from before gravity is turned; the position stays (Jolt, Chipmunk, Godot)";
+    "locate-cubic" Some(0.0), Rule::Within(Locating::ByCubic),
+        "as locate, on the cubic through both ends of the step";
+    "locate-chord" Some(0.0), Rule::Within(Locating::ByChord),
+        "as locate, on the straight line through both ends of the step, which gives the speed too";
+    "swept" Some(1.0), Rule::Swept,
+        "the straight line gives the time of impact; the rest of the step is straight with the turned velocity";
+    "swept-step" Some(0.5), Rule::Within(Locating::BySpeedAtEnd),
+        "the straight line gives the time of impact, the end of the step the speed; the method steps the rest";
+    "penalty" None, Rule::Penalty,
+        "no impact: a damped spring of 4.77 Hz pushes out of the floor";
+};
+
+/// Returns the rule with this id.
+pub fn impact(id: &str) -> Option<&'static Impact> {
+    IMPACTS.iter().find(|impact| impact.id == id)
+}
+
+impl Default for &'static Impact {
+    fn default() -> Self {
+        &IMPACTS[0]
+    }
+}
+
+/// A record of a body's impacts and flights.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Bounces {
+    /// The number of impacts since the start, or since the last input, edit or placement.
+    pub impacts: u64,
+    /// The time in seconds of the last impact, as the rule handled it.
+    pub landed_at_s: f64,
+    /// The velocities away from the wall before and after that impact; NaN after it for a soft wall.
+    pub speeds: [f64; 2],
+    /// The height of the last completed flight above the lower wall: the vertex of the parabola through its highest
+    /// ticks. `None` before the first.
+    pub apex: Option<f64>,
+    /// The number of impacts before that flight.
+    pub apex_after: u64,
+    /// The deepest that the body was below the lower wall at the end of a tick; 0 or more.
+    pub depth: f64,
+    /// How far the body was beyond the wall where the rule met it at the last impact; 0 if it found the impact itself.
+    pub beyond: f64,
+    /// The last heights of this flight, newest last, and how many are known.
+    heights: [f64; 3],
+    known: u8,
+}
+
+impl Bounces {
+    /// Records an impact at time `t` (s), which ends a flight, with the velocities before and after it.
+    pub(super) fn land(&mut self, t: f64, speeds: [f64; 2]) {
+        self.impacts += 1;
+        self.speeds = speeds;
+        self.landed_at_s = t;
+        (self.beyond, self.known) = (0.0, 0);
+    }
+
+    /// Counts from 0 again, after a change of the body.
+    pub(super) fn restart(&mut self) {
+        *self = Self { depth: self.depth, ..Self::default() };
+    }
+
+    /// Forgets the heights of this flight.
+    pub(super) fn part(&mut self) {
+        self.known = 0;
+    }
+
+    /// Adds the height above the lower wall at the end of a tick.
+    pub(super) fn add(&mut self, height: f64) {
+        self.depth = self.depth.max(-height);
+        let [_, before, last] = self.heights;
+        self.heights = [before, last, height];
+        self.known = (self.known + 1).min(3);
+        // Half of the curvature, and the slope, in heights per tick.
+        let (bend, slope) = ((before - last + (height - last)) / 2.0, (height - before) / 2.0);
+        let is_peak = before <= last && last > height;
+        if self.known == 3 && is_peak && bend < 0.0 {
+            self.apex = Some(last - slope * slope / (4.0 * bend));
+            self.apex_after = self.impacts;
+        }
+    }
+}
