@@ -295,9 +295,6 @@ const POLICY: &[Column<PolicyCard>] = &[
     Column::new("usual", |policy| json!(policy.is_usual)),
     Column::new("users", |policy| json!(policy.users)),
     Column::new("source", |policy| json!(policy.source)),
-    Column::new("languages", |policy| {
-        policy.snippets.iter().map(|snippet| snippet.language).collect()
-    }),
 ];
 
 const ENGINE: &[Column<PolicyCard>] = &[

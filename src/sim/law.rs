@@ -37,7 +37,7 @@ pub use rate::{SecondOrder, second_order};
 pub(in crate::sim) use registers::LawLanes;
 pub use registers::Registers;
 pub(crate) use step_text::{
-    AT_TARGET, Frame, Line, NO_RETURN, Operation, Powers, StepBody, SwitchKind, bracketed,
+    AT_TARGET, Frame, Line, NO_RETURN, Operation, Powers, StepBody, SwitchKind, bracketed, LoopName,
     remembers_place,
 };
 pub use step_text::{
