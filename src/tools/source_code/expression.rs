@@ -62,7 +62,8 @@ pub(super) fn spellings<'t>(text: &'t StepText, dialect: &Dialect) -> Spellings<
         let (mut free, mut spelling) = (plain.clone(), (dialect.spelt)(&plain));
         while dialect.is_reserved(&spelling)
             || is_loop_word(&spelling) && !is_duration
-            || spellings.values().any(|it| *it == spelling) {
+            || spellings.values().any(|it| *it == spelling)
+        {
             free += "_own";
             spelling = (dialect.spelt)(&free);
         }

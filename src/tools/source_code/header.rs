@@ -90,7 +90,9 @@ pub(super) fn of_loop(id: &str, text: &LoopText, language: Language) -> Vec<Stri
         Some(about) => format!("{name}: {}", sentence(about)),
         None => sentence(&name),
     }];
-    let more = [("Rule", "gives"), ("Constants", "constants"), ("Beware", "caveat"), ("Source", "known")];
+    let known = if claim("version").is_empty() { "Source" } else { "Known by" };
+    let more =
+        [("Rule", "gives"), ("Constants", "constants"), ("Beware", "caveat"), (known, "known")];
     for (title, key) in more {
         if !claim(key).is_empty() && about != Some(claim(key)) {
             paragraphs.push(format!("{title}: {}", sentence(claim(key))));
@@ -99,7 +101,8 @@ pub(super) fn of_loop(id: &str, text: &LoopText, language: Language) -> Vec<Stri
     paragraphs.push(String::new());
     let rates = rates(text.text().body());
     if rates.contains(&"tick_hz") {
-        let whole = if text.is_whole() { ", a whole number, so that no time is rounded" } else { "" };
+        let whole =
+            if text.is_whole() { ", a whole number, so that no time is rounded" } else { "" };
         paragraphs.push(format!("tick_hz: ticks a second{whole}."));
     }
     if rates.contains(&"refreshes") {
@@ -112,11 +115,19 @@ pub(super) fn of_loop(id: &str, text: &LoopText, language: Language) -> Vec<Stri
         paragraphs.push("cost_ms: the time that a tick takes the machine, in milliseconds.".into());
     }
     let unit = if text.is_whole() { "nanoseconds" } else { "milliseconds" };
-    let handed_on = if language == Language::C { ", user" } else { "" };
+    let (function, handed_on) = match language {
+        Language::C => ("game_loop_frame", ", user"),
+        Language::CSharp => ("Frame", ""),
+        _ => ("frame", ""),
+    };
     paragraphs.push(format!(
-        "Once a frame, call its function of a frame with the duration of the last one in {unit}. It calls \
+        "Call {function} once a frame, with the duration of the last one in {unit}. It calls \
          step(seconds{handed_on}) for each tick{}",
-        if shows(text.text().body()) { ", and returns the moment to draw." } else { ". Draw the last tick." }
+        if shows(text.text().body()) {
+            ", and returns the moment to draw."
+        } else {
+            ". Draw the last tick."
+        }
     ));
     if shows(text.text().body()) {
         paragraphs.push(drawing(claim("draws")).into());

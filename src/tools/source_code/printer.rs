@@ -420,7 +420,8 @@ impl Printer {
             self.push_filled(declaration(*kind), &names.name(*name), start);
         }
         let left_out = names.body.left_out();
-        let is_said = |n: &usize| !left_out[*n] && !matches!(lines[*n], Line::Remark(_) | Line::Blank);
+        let is_said =
+            |n: &usize| !left_out[*n] && !matches!(lines[*n], Line::Remark(_) | Line::Blank);
         let last = (0..lines.len()).rev().find(is_said);
         // Whether each open block is still empty, which some languages have to be told.
         let mut is_empty = vec![true];
@@ -431,7 +432,9 @@ impl Printer {
             }
             let is_block_end = matches!(lines.get(n + 1), Some(Line::End | Line::Else));
             match line {
-                Line::End | Line::Else if is_empty.pop() == Some(true) => self.push_lines(dialect.nothing),
+                Line::End | Line::Else if is_empty.pop() == Some(true) => {
+                    self.push_lines(dialect.nothing)
+                }
                 _ => {}
             }
             match line {

@@ -138,6 +138,11 @@ impl StepText {
 
     /// Returns the reason why no other language can have the lines; `None` if they can.
     pub(crate) fn unwritable(&self) -> Option<&'static str> {
+        if self.is_loop()
+            && self.lines.iter().any(|line| matches!(line, Line::Stop { fails: true }))
+        {
+            return Some("its `fail` takes back ticks; write `stay`");
+        }
         let bodies = self.functions.iter().map(|function| &function.lines).chain([&self.lines]);
         let mut values = bodies.flatten().flat_map(Line::values);
         values.find_map(|expression| {
@@ -277,7 +282,9 @@ impl<'t> StepBody<'t> {
 
     /// Whether a name is a whole number, which lines declared as such count.
     pub(crate) fn is_whole(self, name: usize) -> bool {
-        let inputs = self.text.inputs.iter().filter(|_| self.function.is_none());
+        // The whole times of a loop are numbers like all others.
+        let has_inputs = self.function.is_none() && !self.is_loop();
+        let inputs = self.text.inputs.iter().filter(|_| has_inputs);
         let is_taken = inputs.clone().any(|taken| taken.is_whole && taken.name == Some(name));
         let mut assigned = self.lines().iter().filter_map(|line| match line {
             Line::Assign { name: other, joins, value, declares } if *other == name => {

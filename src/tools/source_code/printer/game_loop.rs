@@ -79,18 +79,27 @@ fn kept(file: &File<'_>) -> Vec<Kept> {
     let times = if has(LoopName::Refresh) { format!(" * {refreshes}") } else { String::new() };
     let second = if is_whole { format!("1e9{unit}") } else { "1000.0".into() };
     let told = [
-        (LoopName::Tick, match is_whole {
-            true => format!("1e9{times}"),
-            false => format!("1000.0 / {}", rate("tick_hz")),
-        }),
-        (LoopName::Refresh, match is_whole {
-            true => format!("1e9{hz} * {seconds}"),
-            false => format!("1000.0 * {seconds} / {refreshes}"),
-        }),
-        (LoopName::Cost, match is_whole {
-            true => format!("1e6{unit} * {}", rate("cost_ms")),
-            false => rate("cost_ms"),
-        }),
+        (
+            LoopName::Tick,
+            match is_whole {
+                true => format!("1e9{times}"),
+                false => format!("1000.0 / {}", rate("tick_hz")),
+            },
+        ),
+        (
+            LoopName::Refresh,
+            match is_whole {
+                true => format!("1e9{hz} * {seconds}"),
+                false => format!("1000.0 * {seconds} / {refreshes}"),
+            },
+        ),
+        (
+            LoopName::Cost,
+            match is_whole {
+                true => format!("1e6{unit} * {}", rate("cost_ms")),
+                false => rate("cost_ms"),
+            },
+        ),
         (LoopName::Now, second.clone()),
         (LoopName::First, "1.0".into()),
     ];
@@ -113,7 +122,13 @@ fn kept(file: &File<'_>) -> Vec<Kept> {
         size: Some(size),
         is_of_lines: true,
     });
-    [(LoopName::Second, second)].into_iter().chain(used).map(of_told).chain(fields).chain(arrays).collect()
+    [(LoopName::Second, second)]
+        .into_iter()
+        .chain(used)
+        .map(of_told)
+        .chain(fields)
+        .chain(arrays)
+        .collect()
 }
 
 impl Printer {
@@ -127,7 +142,9 @@ impl Printer {
                 self.push_lines(&["using System;", "", "public sealed class GameLoop", "{"]);
                 self.depth += 1;
             }
-            Language::GdScript => self.push_lines(&["class_name GameLoop", "extends RefCounted", ""]),
+            Language::GdScript => {
+                self.push_lines(&["class_name GameLoop", "extends RefCounted", ""])
+            }
             Language::Rust | Language::JavaScript | Language::Lua => {}
         }
         let print_functions = |printer: &mut Self| {
@@ -172,8 +189,7 @@ impl Printer {
                 self.push_lines(&["pub struct GameLoop {"]);
                 for it in kept {
                     let visible = if it.is_of_lines { "pub " } else { "" };
-                    let kind =
-                        it.size.map_or("f64".to_owned(), |size| format!("[f64; {size}]"));
+                    let kind = it.size.map_or("f64".to_owned(), |size| format!("[f64; {size}]"));
                     self.push_lines(&[&format!("    {visible}{}: {kind},", it.name)]);
                 }
                 self.push_lines(&["}", "", "impl GameLoop {"]);
@@ -195,7 +211,10 @@ impl Printer {
                 self.push_lines(&["    return loop;", "}", ""]);
             }
             Language::CSharp => {
-                self.push_all("", &each("double NAME;", "readonly double[] NAME = new double[SIZE];"));
+                self.push_all(
+                    "",
+                    &each("double NAME;", "readonly double[] NAME = new double[SIZE];"),
+                );
                 self.push_lines(&["", &format!("public GameLoop({})", typed("double NAME")), "{"]);
                 let array = "for (int i = 0; i < SIZE; i++) this.NAME[i] = VALUE;";
                 self.push_all("    ", &each("this.NAME = VALUE;", array));
@@ -238,8 +257,7 @@ impl Printer {
         let (body, is_whole) = (names.body, file.text.is_whole_loop());
         let (counts_now, shows) = (body.depends_on(LoopName::Now), shows(body));
         let reads_duration = counts_now || body.depends_on(LoopName::Duration);
-        let duration =
-            (dialect.spelt)(if is_whole { "duration_ns" } else { "duration_ms" });
+        let duration = (dialect.spelt)(if is_whole { "duration_ns" } else { "duration_ms" });
         let unused = if reads_duration { "" } else { "_" };
         let answer = |number: &'static str, nothing: &'static str| {
             if shows { number } else { nothing }
@@ -311,7 +329,11 @@ impl Printer {
     }
 
     /// Prints ticks, each of which is a call of the step with its length in seconds.
-    pub(super) fn print_ticks<'t>(&mut self, names: Names<'t>, [count, length]: [&'t Expression; 2]) {
+    pub(super) fn print_ticks<'t>(
+        &mut self,
+        names: Names<'t>,
+        [count, length]: [&'t Expression; 2],
+    ) {
         let (length, level) = names.expression(length, false);
         let is_loose = level.is_some_and(|level| level < Level::Product);
         let length = if is_loose { format!("({length})") } else { length };
