@@ -153,7 +153,7 @@ impl Driver {
                 rates.push("0.0");
             }
             let name = card.id.replace('-', "_");
-            let time = if says("nanoseconds.") { "ns" } else { "(ns / 1e6)" };
+            let time = if says("nanoseconds.") { "ns" } else { "ns / 1e6" };
             let when = if card.engine.is_some() { "engines" } else { "1" };
             let filled = |template: &str| {
                 let shown = if says("The moment is") { self.shown } else { "" };

@@ -44,7 +44,15 @@ pub(super) fn spellings<'t>(text: &'t StepText, dialect: &Dialect) -> Spellings<
             _ => None,
         })
         .collect();
-    let is_loop_word = |word: &str| is_loop && LOOP_WORDS.split_whitespace().any(|it| it == word);
+    // A field cannot share the name of the function of a frame.
+    let is_frame_field = |name: &str| {
+        let carried = text.carried().iter().map(|carried| field_or_name(&carried.name));
+        name == "frame" && carried.chain(text.arrays().map(|(name, ..)| name)).any(|it| it == name)
+    };
+    let is_loop_word = |word: &str| {
+        let mut words = LOOP_WORDS.split_whitespace();
+        is_loop && (words.any(|it| it == word) || is_frame_field(word))
+    };
     let arrays = text.arrays().map(|(name, ..)| name);
     let taken = inputs().map(|input| key(&input));
     let mut spellings = Spellings::new();
