@@ -8,7 +8,7 @@ use std::path::PathBuf;
 use std::process::{Command, Stdio};
 
 use crate::compilers::{build_folder, compiled_or_skip};
-use regatta::loops::{ENGINES, POLICIES, Pacer, PolicyCard, RefreshRate, TimeBase};
+use regatta::loops::{ENGINES, POLICIES, Pacer, PolicyCard, RefreshRate, TimeBase, own_loop};
 use regatta::tools::source_code::{Language, loop_code};
 
 /// The rates of a loop.
@@ -130,8 +130,40 @@ struct Driver {
 /// The trace of the engines' loops, of which each sum of rounded steps is long.
 const ENGINE_TRACE: [usize; 2] = [0, 1];
 
+/// Lines of a person, with names that are words of the languages and of the code around the lines.
+const ODD: &str = "
+memory frame = 0
+memory self = 1
+memory end = 0
+memory past[3] = 1
+const user = 10
+let function = 3
+
+frame += dt
+if frame < 0 {
+  # There is nothing to do.
+  stay
+}
+if frame > 1000 {
+  dropped = 5
+}
+while frame >= user {
+  frame -= user * self
+  tick 1 of user
+}
+past[end] = round(frame)
+end += 0.5
+if end >= function {
+  end = 0
+  if past[1] > 4 { stay } else { tick 1 of user }
+}
+tick floor(past[floor(end)] / 4) of user
+if frame > 5 { show frame / user }
+";
+
 fn cards() -> impl Iterator<Item = &'static PolicyCard> {
-    POLICIES.iter().chain(ENGINES.iter())
+    let odd = own_loop("odd", ODD).unwrap();
+    POLICIES.iter().chain(ENGINES.iter()).chain([odd])
 }
 
 impl Driver {
