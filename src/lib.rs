@@ -55,8 +55,8 @@
 //! - **A physics engine**: a method [for some bodies only](sim::integrators::Only), like `sim/integrators/bullet.rs`.
 //! - **A body**: copy `sim/bodies/pendulum.rs` and `look/pendulum.rs`; add it to `BODIES` and `LOOKS`.
 //! - **A scene**: a file in `assets/scenes` and its name in [`SCENES`](scene::SCENES).
-//! - **A game loop**: its lines in `assets/loops`, with the claims of its card above them, its source for games beside
-//!   them, and its id in [`POLICIES`](loops::POLICIES).
+//! - **A game loop**: its lines in `assets/loops`, with the claims of its card above them, and its id in
+//!   [`POLICIES`](loops::POLICIES).
 //! - **A rule for impacts**: a line of [`IMPACTS`](sim::IMPACTS), its change in `sim/bouncer.rs`, and its source in
 //!   `assets/impacts`.
 //! - **A metric** or **a key**: one entry of its table.

@@ -16,6 +16,7 @@ use crate::sim::integrators::{FreeSpin, METHODS, Method, SpinMap};
 use crate::sim::law::{UNITS, functions, operators, values};
 use crate::sim::{BodyClass, IMPACTS, Impact};
 use crate::studio::{Binding, KEYS};
+use crate::tools::source_code::Language;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -304,9 +305,7 @@ const POLICY: &[Column<PolicyCard>] = &[
     Column::new("usual", |policy| json!(policy.is_usual)),
     Column::new("users", |policy| json!(policy.users)),
     Column::new("source", |policy| json!(policy.source)),
-    Column::new("languages", |policy| {
-        policy.snippets.iter().map(|snippet| snippet.language).collect()
-    }),
+    Column::new("languages", |_| json!(Language::ALL.map(Language::id))),
 ];
 
 const ENGINE: &[Column<PolicyCard>] = &[

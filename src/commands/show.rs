@@ -11,7 +11,9 @@ use super::terminal::print_status;
 use crate::loops::PolicyCard;
 use crate::sim::integrators::{METHODS, Method};
 use crate::sim::{IMPACTS, Impact};
-use crate::tools::source_code::{Language, Precision, impact_code, source_code, step_lines};
+use crate::tools::source_code::{
+    Language, Precision, impact_code, loop_code, source_code, step_lines,
+};
 
 const ABOUT: &str = "\
 A method of your own is a file of the lines of its step: see `regatta help step`. The comment has its
@@ -22,6 +24,10 @@ a function a(x, v) for the acceleration. A method with memory takes its memory t
 position of its target and a rate, and an engine the settings of its joint and its body. The comment
 above the function has the details.
 
+A loop is a type made for a tick rate, and one function: once a frame it calls your step for each tick,
+and returns the moment to draw. The loops of engines (regatta list engine-loops) and of your own have
+it too, and without --as you see their lines.
+
 Examples:
   regatta show rk4
   regatta show semi-implicit-euler --as csharp --float
@@ -29,6 +35,7 @@ Examples:
   regatta show my.step --as cpp
   regatta show bdf2 --as step > my-bdf2.step
   regatta show fixed-linear --as cpp
+  regatta show bevy --as csharp
   regatta show clamp --as csharp          a rule for impacts";
 
 /// Print a method or a game loop as code for your game
@@ -44,11 +51,11 @@ pub(super) struct ShowArgs {
 
     /// The language: rust, c, cpp, csharp, gdscript, javascript, lua or step
     ///
-    /// Methods have all of them, with the same code in cpp and c. Loops have rust, and some cpp and csharp. `step` is
-    /// the language of a method of your own, to change and give back.
-    #[arg(long = "as", value_name = "LANGUAGE", default_value = Language::Rust.id())]
+    /// The default is rust, and step for the loop of an engine or of your own. The code in cpp is that in c. `step` is
+    /// the language of a method or a loop of your own, to change and give back.
+    #[arg(long = "as", value_name = "LANGUAGE")]
     #[arg(value_parser = CODE_LANGUAGE, hide_possible_values = true)]
-    language: CodeLanguage,
+    language: Option<CodeLanguage>,
 
     /// Use single precision, as Unity and Godot do
     #[arg(long)]
@@ -95,11 +102,11 @@ const SHOWN_ITEM: Id<ShownItem> = Id {
 /// A language of the code.
 #[derive(Clone, Copy, Debug)]
 enum CodeLanguage {
-    /// A language in which methods are available.
+    /// A language of the printer.
     Of(Language),
-    /// C++, in which some loops are available but no methods.
+    /// C++, which has the code of C.
     Cpp,
-    /// The lines of a step.
+    /// The lines of a step or of a loop.
     Step,
 }
 
@@ -115,18 +122,6 @@ const CODE_LANGUAGE: Id<CodeLanguage> = Id {
     spellings: languages_by_other_names,
 };
 
-impl CodeLanguage {
-    /// Returns the name that the language has on the card of a loop.
-    fn of_loops(self) -> &'static str {
-        match self {
-            Self::Cpp => "c++",
-            Self::Step => "step",
-            Self::Of(Language::CSharp) => "c#",
-            Self::Of(language) => language.id(),
-        }
-    }
-}
-
 pub(super) fn run(args: &ShowArgs) -> Result<(), Error> {
     let (method, alias) = match args.asked {
         ShownItem::Method { method, alias } => (method, alias),
@@ -135,9 +130,9 @@ pub(super) fn run(args: &ShowArgs) -> Result<(), Error> {
                 "--float is for methods; a loop or a rule has no precision to choose",
             ));
         }
-        ShownItem::Loop(card) => return print(snippet(card, args.language)?),
+        ShownItem::Loop(card) => return print(&loop_source(card, args.language)?),
         ShownItem::Impact(impact) => {
-            let language = match args.language {
+            let language = match args.language.unwrap_or(CodeLanguage::Of(Language::default())) {
                 CodeLanguage::Of(language) => language,
                 CodeLanguage::Cpp => Language::C,
                 CodeLanguage::Step => return print(impact.code),
@@ -145,13 +140,14 @@ pub(super) fn run(args: &ShowArgs) -> Result<(), Error> {
             return print(&impact_code(impact, language).map_err(Error::mistake)?);
         }
     };
-    let language = match args.language {
+    let asked = args.language.unwrap_or(CodeLanguage::Of(Language::default()));
+    let language = match asked {
         CodeLanguage::Of(language) => language,
         // A C++ compiler accepts the C code.
         CodeLanguage::Cpp | CodeLanguage::Step => Language::C,
     };
     let precision = if args.float { Precision::Single } else { Precision::Double };
-    let code = match args.language {
+    let code = match asked {
         CodeLanguage::Step if args.float => {
             return Err(Error::mistake("--float is for code; the lines of a step are for both"));
         }
@@ -165,28 +161,18 @@ pub(super) fn run(args: &ShowArgs) -> Result<(), Error> {
     print(&code)
 }
 
-/// Returns the source code of a loop in a language. That of an engine is its lines.
-fn snippet(card: &PolicyCard, language: CodeLanguage) -> Result<&'static str, Error> {
-    let found = |language: CodeLanguage| {
-        let mut snippets = card.snippets.iter();
-        match language {
-            CodeLanguage::Step => card.lines(),
-            _ => snippets.find(|it| it.language == language.of_loops()).map(|it| it.source),
-        }
-    };
+/// Returns the source code of a loop in a language. That of an engine or of a person is its lines, unless they ask for
+/// a language.
+fn loop_source(card: &PolicyCard, language: Option<CodeLanguage>) -> Result<String, Error> {
+    let lines = card.lines().unwrap_or_default();
     let language = match language {
-        CodeLanguage::Of(Language::Rust) if card.is_from_outside() => CodeLanguage::Step,
-        language => language,
+        Some(CodeLanguage::Step) => return Ok(lines.to_owned()),
+        None if card.is_from_outside() => return Ok(lines.to_owned()),
+        None => Language::default(),
+        Some(CodeLanguage::Of(language)) => language,
+        Some(CodeLanguage::Cpp) => Language::C,
     };
-    found(language).ok_or_else(|| {
-        let known =
-            (CODE_LANGUAGE.all)().into_iter().filter(|(_, written)| found(*written).is_some());
-        let known: Vec<String> = known.map(|(id, _)| id).collect();
-        let asked = language.of_loops();
-        Error::mistake(format!(
-            "{} is not written out in {asked}; give --as {}",
-            card.id,
-            known.join(" or ")
-        ))
+    loop_code(card.id, lines, language).map_err(|reason| {
+        Error::mistake(format!("{} has no code in {language}: {reason}; give --as step", card.id))
     })
 }

@@ -56,16 +56,10 @@ pub static ENGINES: LazyLock<Vec<PolicyCard>> = LazyLock::new(|| {
     files.into_iter().map(|(id, text)| card(id, text, read(text))).collect()
 });
 
-/// Returns the words of a remark `# key: words` of a text.
-pub(super) fn claim<'t>(text: &'t str, key: &str) -> &'t str {
-    let mut remarks = text.lines().filter_map(|line| line.strip_prefix("# "));
-    remarks.find_map(|remark| remark.strip_prefix(key)?.strip_prefix(": ")).unwrap_or_default()
-}
-
 /// Returns the card of the lines of a text under an id, with the claims of its remarks.
 pub(super) fn card(id: &'static str, text: &'static str, lines: LoopText) -> PolicyCard {
     let (shows, has_fixed_tick) = (lines.shows(), lines.has_fixed_tick());
-    let claim = |key| claim(text, key);
+    let claim = |key| LoopText::claim(text, key);
     let or = |key, other| if claim(key).is_empty() { other } else { claim(key) };
     let constants = LoopText::constants(text).into_iter();
     let is_sign = |c: char| c.is_ascii_digit() || " .-*/".contains(c);
@@ -89,7 +83,6 @@ pub(super) fn card(id: &'static str, text: &'static str, lines: LoopText) -> Pol
         has_fixed_tick,
         needs_exact_clock: has_fixed_tick && !shows && claim("steady").is_empty(),
         is_usual: !claim("usual").is_empty(),
-        snippets: &[],
         build: Build::Lines(Box::leak(Box::new(lines))),
         engine: Some(Engine {
             version: claim("version"),

@@ -73,7 +73,6 @@ impl ShownLog {
             odd_frames: "as the log",
             users: "the game of the log",
             source: "a column of the log",
-            snippets: &[],
             build: Build::Replay(moments_ms),
             is_usual: false,
             ..POLICIES[0]

@@ -36,7 +36,7 @@ pub use paced_lane::PacedLane;
 pub use pacer::Pacer;
 pub use patterns::{TRACES, TraceCard, frames_on_display, steady_trace, trace_card};
 pub use policies::{POLICIES, policy};
-pub use policy::{Engine, Excess, FrameLimits, LongFrame, PolicyCard, Snippet, Steps};
+pub use policy::{Engine, Excess, FrameLimits, LongFrame, PolicyCard, Steps};
 pub use time_base::{RefreshRate, TimeBase};
 pub use trace::{Frame, FrameTrace, Frames};
 pub use verdict::LoopVerdict;

@@ -57,15 +57,6 @@ pub struct FrameLimits {
     pub cost_ms: Option<u32>,
 }
 
-/// The source code of a loop in one language, to copy into a game.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Snippet {
-    /// The language: `rust`, `c++` or `c#`.
-    pub language: &'static str,
-    /// The source code.
-    pub source: &'static str,
-}
-
 /// Description of a policy.
 ///
 /// In formulas H is the tick, dt the duration of the last frame, R the refresh of the display, and α the fraction of
@@ -98,8 +89,6 @@ pub struct PolicyCard {
     pub has_max_ticks: bool,
     /// Whether `regatta loop` compares the policy by default.
     pub is_usual: bool,
-    /// Source code to copy into a game.
-    pub snippets: &'static [Snippet],
     /// The engine whose loop this is, or lines of a person's own.
     pub engine: Option<Engine>,
     pub(super) build: Build,

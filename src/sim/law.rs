@@ -37,8 +37,8 @@ pub use rate::{SecondOrder, second_order};
 pub(in crate::sim) use registers::LawLanes;
 pub use registers::Registers;
 pub(crate) use step_text::{
-    AT_TARGET, Frame, Line, NO_RETURN, Operation, Powers, StepBody, SwitchKind, bracketed,
-    remembers_place,
+    AT_TARGET, Frame, Line, LoopName, NO_RETURN, Operation, Powers, StepBody, SwitchKind,
+    bracketed, remembers_place,
 };
 pub use step_text::{
     Carried, Declares, General, Input, LinearRule, MAX_STEP_BYTES, MethodInput, OwnLines, Request,

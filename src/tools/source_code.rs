@@ -1,5 +1,5 @@
-//! Prints the methods as source code for a game. For each method, it is one function of `x`, `v` and the step `h`, in
-//! each of six languages.
+//! Prints methods and game loops as source code for a game, in each of six languages. For a method, it is one function
+//! of `x`, `v` and the step `h`; for a loop, a type that makes the ticks of a frame.
 //!
 //! A method is written once, in `assets/methods`, in the language in which a person writes a step of their own; see
 //! [`StepText`]. The printer translates its lines one by one with the table of dialects, and makes the header from the
@@ -19,7 +19,7 @@ use std::fmt;
 use crate::sim::Impact;
 use crate::sim::integrators::Method;
 pub use crate::sim::law::MethodInput;
-use crate::sim::law::StepText;
+use crate::sim::law::{LoopText, StepText};
 
 pub use dialect::{Language, Precision};
 pub(super) use printer::{RULE_STEP, rule_lines, rule_names};
@@ -146,6 +146,27 @@ pub fn impact_code(impact: &Impact, language: Language) -> Result<String, String
     });
     let about = std::iter::once(format!("{}: {}.", impact.id, impact.about)).chain(effect);
     rule_code(impact.code, &about.collect::<Vec<_>>(), language)
+}
+
+/// Returns a game loop in a language, below a comment from the claims of its lines. It is the type `GameLoop`, whose
+/// function of a frame calls a step for each tick and returns the moment to draw, if the loop shows one.
+///
+/// # Errors
+/// The reason why the lines cannot be printed, as a clause.
+///
+/// ```
+/// use regatta::tools::source_code::{Language, loop_code};
+///
+/// let code = loop_code("mine", "tick 1 of dt", Language::Rust).unwrap();
+/// assert!(code.contains("step(duration_ms / self.second);"));
+/// ```
+pub fn loop_code(id: &str, lines: &str, language: Language) -> Result<String, String> {
+    let text = LoopText::read(lines).map_err(|fault| fault.what)?;
+    if let Some(reason) = text.text().unwritable() {
+        return Err(reason.to_owned());
+    }
+    let header = header::of_loop(id, &text, language);
+    Ok(printer::print_loop(text.text(), language, &header))
 }
 
 /// Returns the lines of a method, unless the language or the precision rules them out.

@@ -1,43 +1,15 @@
-//! The code snippets of the loops match the loops of the table, frame by frame, in each language.
-#![expect(unreachable_pub, reason = "the sources are compiled as they are given away")]
+//! The printed code of the loops matches the loops of the tables, frame by frame, in each language.
 
-use std::collections::BTreeSet;
+use std::env;
+use std::fmt::Write as _;
 use std::fs;
 use std::io::Write as _;
-use std::path::Path;
+use std::path::PathBuf;
 use std::process::{Command, Stdio};
 
 use crate::compilers::{build_folder, compiled_or_skip};
-use regatta::loops::{POLICIES, Pacer, PolicyCard, RefreshRate, TimeBase, policy};
-
-#[path = "../../assets/loops/clamped-variable.rs"]
-pub mod clamped_variable;
-#[path = "../../assets/loops/fixed.rs"]
-pub mod fixed;
-#[path = "../../assets/loops/fixed-extrapolated.rs"]
-pub mod fixed_extrapolated;
-#[path = "../../assets/loops/fixed-hermite.rs"]
-pub mod fixed_hermite;
-#[path = "../../assets/loops/fixed-linear.rs"]
-pub mod fixed_linear;
-#[path = "../../assets/loops/hysteresis.rs"]
-pub mod hysteresis;
-#[path = "../../assets/loops/lockstep.rs"]
-pub mod lockstep;
-#[path = "../../assets/loops/median.rs"]
-pub mod median;
-#[path = "../../assets/loops/render-tick.rs"]
-pub mod render_tick;
-#[path = "../../assets/loops/semi-fixed.rs"]
-pub mod semi_fixed;
-#[path = "../../assets/loops/slow-down.rs"]
-pub mod slow_down;
-#[path = "../../assets/loops/snapped.rs"]
-pub mod snapped;
-#[path = "../../assets/loops/variable.rs"]
-pub mod variable;
-#[path = "../../assets/loops/whole-refresh.rs"]
-pub mod whole_refresh;
+use regatta::loops::{ENGINES, POLICIES, Pacer, PolicyCard, RefreshRate, TimeBase, own_loop};
+use regatta::tools::source_code::{Language, loop_code};
 
 /// The rates of a loop.
 #[derive(Clone, Copy, Debug)]
@@ -62,10 +34,6 @@ impl Rates {
 
     fn base(self) -> TimeBase {
         TimeBase::new(self.tick_hz, self.refresh())
-    }
-
-    fn tick_s(self) -> f64 {
-        1.0 / f64::from(self.tick_hz)
     }
 }
 
@@ -119,118 +87,21 @@ fn known(card: &'static PolicyCard, rates: Rates, trace: &[i64]) -> Vec<Answer> 
     let each = |&duration_ns: &i64| {
         let steps = pacer.frame(duration_ns);
         let step_s = base.seconds(steps.span) / f64::from(steps.count.max(1));
-        Answer { steps: steps.count, step_s, shown_s: base.seconds(pacer.drawn_moment()) }
+        // Of an engine, the time that it has made: its own tick is not that of the base.
+        let shown = if card.engine.is_some() { pacer.simulated() } else { pacer.drawn_moment() };
+        Answer { steps: steps.count, step_s, shown_s: base.seconds(shown) }
     };
     trace.iter().map(each).collect()
 }
 
-/// The results of a snippet with ticks. `shown` draws a motion of one per second from the time of the last tick.
-fn whole_ticks<L>(
-    rates: Rates,
-    trace: &[i64],
-    mut game_loop: L,
-    frame: fn(&mut L, i64) -> i64,
-    shown: impl Fn(&L, f64) -> f64,
-) -> Vec<Answer> {
-    let tick_s = rates.tick_s();
-    let mut ticks = 0;
-    let each = |&duration_ns: &i64| {
-        let steps = frame(&mut game_loop, duration_ns);
-        ticks += steps;
-        let shown_s = shown(&game_loop, ticks as f64 * tick_s);
-        Answer { steps: steps as u32, step_s: if steps > 0 { tick_s } else { 0.0 }, shown_s }
-    };
-    trace.iter().map(each).collect()
-}
-
-/// The results of a snippet with steps of any length; `frame` gives their number and the length of each.
-fn any_steps(trace: &[i64], mut frame: impl FnMut(i64) -> (i64, f64)) -> Vec<Answer> {
-    let mut shown_s = 0.0;
-    let each = |&duration_ns: &i64| {
-        let (steps, step_s) = frame(duration_ns);
-        shown_s += steps as f64 * step_s;
-        Answer { steps: steps as u32, step_s, shown_s }
-    };
-    trace.iter().map(each).collect()
-}
-
-fn one_step(trace: &[i64], mut frame: impl FnMut(i64) -> f64) -> Vec<Answer> {
-    any_steps(trace, |duration_ns| {
-        let step_s = frame(duration_ns);
-        (i64::from(step_s > 0.0), step_s)
-    })
-}
-
-/// The results of the Rust snippet with this id.
-fn in_rust(id: &str, rates: Rates, trace: &[i64]) -> Vec<Answer> {
-    let Rates { tick_hz, refresh_hz } = rates;
-    let tick_s = rates.tick_s();
-    let refresh_ns = 1_000_000_000 * i64::from(refresh_hz[1]) / i64::from(refresh_hz[0]);
-    match id {
-        "variable" => one_step(trace, variable::frame),
-        "lockstep" => one_step(trace, |_| lockstep::frame(tick_hz)),
-        "clamped-variable" => one_step(trace, clamped_variable::frame),
-        "semi-fixed" => any_steps(trace, |duration_ns| semi_fixed::frame(duration_ns, tick_hz)),
-        "fixed" => whole_ticks(
-            rates,
-            trace,
-            fixed::GameLoop::new(tick_hz),
-            fixed::GameLoop::frame,
-            |_, t| t,
-        ),
-        "fixed-linear" => {
-            use fixed_linear::GameLoop;
-            let shown = |game_loop: &GameLoop, t| game_loop.drawn(t - tick_s, t);
-            whole_ticks(rates, trace, GameLoop::new(tick_hz), GameLoop::frame, shown)
-        }
-        "fixed-hermite" => {
-            use fixed_hermite::GameLoop;
-            let shown = |game_loop: &GameLoop, t| game_loop.drawn([t - tick_s, t], [1.0; 2]);
-            whole_ticks(rates, trace, GameLoop::new(tick_hz), GameLoop::frame, shown)
-        }
-        "fixed-extrapolated" => {
-            use fixed_extrapolated::GameLoop;
-            let shown = |game_loop: &GameLoop, t| game_loop.drawn(t, 1.0);
-            whole_ticks(rates, trace, GameLoop::new(tick_hz), GameLoop::frame, shown)
-        }
-        "render-tick" => {
-            use render_tick::GameLoop;
-            let shown = |game_loop: &GameLoop, t| t + game_loop.owed_s();
-            whole_ticks(rates, trace, GameLoop::new(tick_hz), GameLoop::frame, shown)
-        }
-        "snapped" => {
-            use snapped::GameLoop;
-            let shown = |game_loop: &GameLoop, t| game_loop.drawn(t - tick_s, t);
-            whole_ticks(rates, trace, GameLoop::new(tick_hz, refresh_hz), GameLoop::frame, shown)
-        }
-        "whole-refresh" => {
-            use whole_refresh::GameLoop;
-            let shown = |game_loop: &GameLoop, t| game_loop.drawn(t - tick_s, t);
-            whole_ticks(rates, trace, GameLoop::new(tick_hz, refresh_hz), GameLoop::frame, shown)
-        }
-        "hysteresis" => {
-            use hysteresis::GameLoop;
-            whole_ticks(rates, trace, GameLoop::new(tick_hz), GameLoop::frame, |_, t| t)
-        }
-        "median" => {
-            let mut game_loop = median::GameLoop::new(refresh_ns);
-            one_step(trace, |duration_ns| game_loop.frame(duration_ns))
-        }
-        "slow-down" => {
-            use slow_down::GameLoop;
-            whole_ticks(rates, trace, GameLoop::new(tick_hz), GameLoop::frame, |_, t| t)
-        }
-        other => panic!("{other} has no Rust snippet here"),
-    }
-}
-
-/// Checks a snippet's answers against the table's loop.
+/// Checks printed code's answers against the table's loop.
 fn same(card: &'static PolicyCard, rates: Rates, trace: &[i64], found: &[Answer]) {
-    // Seconds are rounded, and nanoseconds too where a step is divided. The errors add up, except for the debt that
-    // `median` repays.
+    // Seconds are rounded, and nanoseconds too where a step is divided or counted in them. The errors add up, except
+    // for the debt that `median` repays.
     let (step_s, total_s) = match card.id {
         "median" => (2e-8, 2e-7),
         "clamped-variable" => (1e-9, 1e-9 * trace.len() as f64),
+        _ if card.engine.is_some() => (1e-9, 1e-6),
         _ => (1e-12, 1e-9),
     };
     let known = known(card, rates, trace);
@@ -243,123 +114,308 @@ fn same(card: &'static PolicyCard, rates: Rates, trace: &[i64], found: &[Answer]
     }
 }
 
-#[test]
-fn every_snippet_file_is_used_and_every_card_has_one_in_rust() {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("assets/loops");
-    let files = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
-    let files = files.filter(|path| path.extension().unwrap() != "loop");
-    let files: BTreeSet<_> = files
-        .map(|path| {
-            let name = path.file_name().unwrap().to_str().unwrap().to_string();
-            (name, fs::read_to_string(path).unwrap())
-        })
-        .collect();
-    let mut listed = BTreeSet::new();
-    for card in POLICIES.iter() {
-        assert_eq!(card.snippets[0].language, "rust", "{}", card.id);
-        for snippet in card.snippets {
-            let ending = match snippet.language {
-                "rust" => "rs",
-                "c++" => "hpp",
-                "c#" => "cs",
-                other => panic!("{other} is not known here"),
+/// A language whose compiler or interpreter runs the printed loops.
+struct Driver {
+    language: Language,
+    file: &'static str,
+    /// A loop with its runs. `NAME` is a name for it, `CODE` its code, `NEW` what it is made for, `TIME` the duration
+    /// of the last frame, `SHOWN` what takes the moment to draw, and `WHEN` whether it runs on every trace.
+    each: &'static str,
+    /// The program, with all loops at `LOOPS` and their calls at `CALLS`.
+    whole: &'static str,
+    call: &'static str,
+    shown: &'static str,
+}
+
+/// The trace of the engines' loops, of which each sum of rounded steps is long.
+const ENGINE_TRACE: [usize; 2] = [0, 1];
+
+/// Lines of a person, with names that are words of the languages and of the code around the lines.
+const ODD: &str = "
+memory frame = 0
+memory self = 1
+memory end = 0
+memory past[3] = 1
+const user = 10
+let function = 3
+
+frame += dt
+if frame < 0 {
+  # There is nothing to do.
+  stay
+}
+if frame > 1000 {
+  dropped = 5
+}
+while frame >= user {
+  frame -= user * self
+  tick 1 of user
+}
+past[end] = round(frame)
+end += 0.5
+if end >= function {
+  end = 0
+  if past[1] > 4 { stay } else { tick 1 of user }
+}
+tick floor(past[floor(end)] / 4) of user
+if frame > 5 { show frame / user }
+";
+
+fn cards() -> impl Iterator<Item = &'static PolicyCard> {
+    let odd = own_loop("odd", ODD).unwrap();
+    POLICIES.iter().chain(ENGINES.iter()).chain([odd])
+}
+
+impl Driver {
+    /// Returns a program that reads traces, and prints the ticks of a frame, the length of the last, the time of all so
+    /// far and the moment to draw.
+    fn program(&self) -> String {
+        let (mut loops, mut calls) = (String::new(), String::new());
+        for card in cards() {
+            let code = loop_code(card.id, card.lines().unwrap(), self.language).unwrap();
+            let says = |words: &str| code.contains(words);
+            let mut rates = Vec::new();
+            if says(" tick_hz: ") {
+                rates.push("tick_hz");
+            }
+            if says(" refreshes, seconds: ") {
+                rates.extend(["refreshes", "seconds"]);
+            }
+            if says(" cost_ms: ") {
+                rates.push("0.0");
+            }
+            let name = card.id.replace('-', "_");
+            let time = if says("nanoseconds.") { "ns" } else { "ns / 1e6" };
+            let when = if card.engine.is_some() { "engines" } else { "1" };
+            let filled = |template: &str| {
+                let shown = if says("The moment is") { self.shown } else { "" };
+                let parts = [("NAME", &*name), ("NEW", &rates.join(", ")), ("TIME", time)];
+                let parts = parts.into_iter().chain([("WHEN", when), ("SHOWN", shown)]);
+                let filled =
+                    parts.fold(template.to_owned(), |text, (part, with)| text.replace(part, with));
+                filled.replace("CODE", &code)
             };
-            listed.insert((format!("{}.{ending}", card.id), snippet.source.to_string()));
+            writeln!(loops, "{}", filled(self.each)).unwrap();
+            writeln!(calls, "{}", filled(self.call)).unwrap();
         }
+        self.whole.replace("LOOPS", &loops).replace("CALLS", &calls)
     }
-    assert_eq!(files, listed);
-    for (name, text) in &files {
-        assert!(text.lines().all(|line| line.chars().count() <= 120), "{name} is too wide");
-    }
-}
 
-#[test]
-fn the_rust_snippets_match_the_table() {
-    for rates in RATES {
-        for trace in traces(rates) {
-            for card in POLICIES.iter() {
-                same(card, rates, &trace, &in_rust(card.id, rates, &trace));
-            }
-        }
+    fn written(&self) -> PathBuf {
+        let path = build_folder(&format!("loops-{}", self.language.id())).join(self.file);
+        fs::write(&path, self.program()).unwrap();
+        path
     }
-}
 
-/// Checks every snippet of a language by a driver that is given the rates and, a line each, the durations, and prints
-/// `id steps step_s shown_s` for each loop and frame.
-fn driven(language: &str, driver: &[&Path]) {
-    let with_snippet = POLICIES
-        .iter()
-        .filter(|card| card.snippets.iter().any(|snippet| snippet.language == language));
-    let with_snippet: BTreeSet<&str> = with_snippet.map(|card| card.id).collect();
-    for rates in RATES {
-        for trace in traces(rates) {
-            let [numerator, denominator] = rates.refresh_hz;
-            let numbers = [rates.tick_hz, numerator, denominator];
-            let mut child = Command::new(driver[0])
-                .args(&driver[1..])
-                .args(numbers.map(|number| number.to_string()))
-                .stdin(Stdio::piped())
-                .stdout(Stdio::piped())
-                .spawn()
+    /// Compares every loop on every trace with the tables.
+    fn matches(&self, program: &mut Command) {
+        let mut given = String::new();
+        for (n, rates) in RATES.into_iter().enumerate() {
+            for (m, trace) in traces(rates).iter().enumerate() {
+                let [refreshes, seconds] = rates.refresh_hz;
+                let engines = u8::from([n, m] == ENGINE_TRACE);
+                writeln!(
+                    given,
+                    "{} {refreshes} {seconds} {engines} {}",
+                    rates.tick_hz,
+                    trace.len()
+                )
                 .unwrap();
-            let durations: String = trace.iter().map(|ns| format!("{ns}\n")).collect();
-            // Dropped after writing, which ends the driver's input.
-            child.stdin.take().unwrap().write_all(durations.as_bytes()).unwrap();
-            let output = child.wait_with_output().unwrap();
-            assert!(output.status.success(), "{:?}", output.status);
-            let text = String::from_utf8(output.stdout).unwrap();
-            let lines = text.lines().map(|line| line.split_once(' ').unwrap());
-            let driven: BTreeSet<&str> = lines.clone().map(|(id, _)| id).collect();
-            assert_eq!(driven, with_snippet);
-            for id in driven {
-                let own = lines.clone().filter(|line| line.0 == id);
-                let answers: Vec<_> = own.map(|(_, line)| answer(line)).collect();
-                same(policy(id).unwrap(), rates, &trace, &answers);
+                trace.iter().for_each(|ns| writeln!(given, "{ns}").unwrap());
             }
         }
+        let mut child = program.stdin(Stdio::piped()).stdout(Stdio::piped()).spawn().unwrap();
+        let mut stdin = child.stdin.take().unwrap();
+        let writer = std::thread::spawn(move || stdin.write_all(given.as_bytes()).unwrap());
+        let output = child.wait_with_output().unwrap();
+        writer.join().unwrap();
+        assert!(output.status.success(), "{:?}", output.status);
+        let text = String::from_utf8(output.stdout).unwrap();
+        let mut lines = text.lines();
+        for (n, rates) in RATES.into_iter().enumerate() {
+            for (m, trace) in traces(rates).iter().enumerate() {
+                for card in cards().filter(|card| card.engine.is_none() || [n, m] == ENGINE_TRACE) {
+                    let tick_s = 1.0 / f64::from(rates.tick_hz);
+                    let tick_s = if card.engine.is_some() { 0.0 } else { tick_s };
+                    let answers = lines.by_ref().take(trace.len()).map(|line| answer(line, tick_s));
+                    same(card, rates, trace, &answers.collect::<Vec<_>>());
+                }
+            }
+        }
+        assert_eq!(lines.next(), None);
     }
 }
 
-/// A driver's line after the id.
-fn answer(line: &str) -> Answer {
+/// The result on a line, which has the moment to draw as a part of a tick.
+fn answer(line: &str, tick_s: f64) -> Answer {
     let mut words = line.split(' ');
     let mut number = || words.next().unwrap().parse::<f64>().unwrap();
-    Answer { steps: number() as u32, step_s: number(), shown_s: number() }
+    let (steps, step_s, made_s) = (number() as u32, number(), number());
+    Answer { steps, step_s, shown_s: made_s + (number() - 1.0) * tick_s }
 }
 
 #[test]
-fn the_cpp_snippets_match_the_table() {
-    let folder = build_folder("loops-cpp");
-    let program = folder.join("driver");
-    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+fn the_rust_loops_match_the_tables() {
+    let driver = Driver {
+        language: Language::Rust,
+        file: "driver.rs",
+        each: "pub mod NAME {\nCODE}\n",
+        call: "if WHEN == 1 {\nlet mut game_loop = NAME::GameLoop::new(NEW);\nlet mut made = 0.0;\n\
+               for &ns in &durations {\nlet (mut count, mut last, mut shown) = (0, 0.0, 1.0);\n\
+               SHOWNgame_loop.frame(TIME, |s| { count += 1; last = s; made += s; });\n\
+               let _ = writeln!(out, \"{count} {last:?} {made:?} {shown:?}\");\n}\n}",
+        shown: "shown = ",
+        whole: "use std::io::{Read, Write};\nLOOPS\n#[allow(unused_mut, unused_assignments)]\nfn main() {\n\
+                let mut text = String::new();\nstd::io::stdin().read_to_string(&mut text).unwrap();\n\
+                let mut out = std::io::BufWriter::new(std::io::stdout());\n\
+                let mut numbers = text.split_whitespace().map(|word| word.parse::<f64>().unwrap());\n\
+                while let Some(tick_hz) = numbers.next() {\n\
+                let mut number = || numbers.next().unwrap();\n\
+                let (refreshes, seconds, engines, frames) = (number(), number(), number() as u32, number() as usize);\n\
+                let durations: Vec<f64> = (0..frames).map(|_| number()).collect();\nCALLS\n}\n}\n",
+    };
+    let source = driver.written();
+    let program = source.with_extension("");
+    let mut compiler = Command::new(env::var_os("RUSTC").unwrap_or("rustc".into()));
+    compiler.args(["--edition=2024", "-Dwarnings", "-o"]).arg(&program).arg(&source);
+    if compiled_or_skip("the_rust_loops_match_the_tables", &mut compiler) {
+        driver.matches(&mut Command::new(program));
+    }
+}
+
+#[test]
+fn the_c_loops_match_the_tables_and_are_valid_cpp() {
+    let driver = Driver {
+        language: Language::C,
+        file: "driver.c",
+        each: "#define game_loop NAME_type\n#define game_loop_new NAME_new\n#define game_loop_frame NAME_frame\n\
+               #define loop_sign NAME_sign\n#define loop_remainder NAME_remainder\n#define loop_single NAME_single\n\
+               CODE\n\
+               static void NAME(double tick_hz, double refreshes, double seconds) {\n\
+               (void)tick_hz; (void)refreshes; (void)seconds;\n\
+               game_loop it = game_loop_new(NEW);\nstruct answer a = { 0, 0.0, 0.0 };\n\
+               for (int n = 0; n < frames; n++) {\nconst double ns = durations[n];\ndouble shown = 1.0;\n\
+               a.count = 0;\na.last = 0.0;\nSHOWNgame_loop_frame(&it, TIME, made, &a);\n\
+               printf(\"%d %.17g %.17g %.17g\\n\", a.count, a.last, a.made, shown);\n}\n}\n\
+               #undef game_loop\n#undef game_loop_new\n#undef game_loop_frame\n#undef loop_sign\n\
+               #undef loop_remainder\n#undef loop_single\n",
+        call: "if (WHEN == 1) NAME(tick_hz, refreshes, seconds);",
+        shown: "shown = ",
+        whole: "#include <stdio.h>\n#include <math.h>\nstruct answer { int count; double last, made; };\n\
+                static double durations[10000];\nstatic int frames;\n\
+                static void made(double seconds, void *user) {\nstruct answer *a = (struct answer *)user;\n\
+                a->count++;\na->last = seconds;\na->made += seconds;\n}\nLOOPS\nint main(void) {\n\
+                double tick_hz, refreshes, seconds;\nint engines;\n\
+                while (scanf(\"%lf %lf %lf %d %d\", &tick_hz, &refreshes, &seconds, &engines, &frames) == 5) {\n\
+                for (int n = 0; n < frames; n++) if (scanf(\"%lf\", &durations[n]) != 1) return 1;\nCALLS\n}\n\
+                return 0;\n}\n",
+    };
+    let source = driver.written();
+    let program = source.with_extension("");
+    let warnings = ["-Wall", "-Wextra", "-pedantic", "-Werror"];
+    let mut compiler = Command::new("cc");
+    compiler.arg("-std=c99").args(warnings).arg("-o").arg(&program).arg(&source).arg("-lm");
+    let test = "the_c_loops_match_the_tables_and_are_valid_cpp";
+    if compiled_or_skip(test, &mut compiler) {
+        driver.matches(&mut Command::new(&program));
+    }
     let mut compiler = Command::new("c++");
-    compiler.args(["-std=c++14", "-Wall", "-Wextra", "-Wconversion", "-pedantic", "-Werror"]);
-    compiler.arg("-I").arg(root.join("assets/loops")).arg("-o").arg(&program);
-    compiler.arg(root.join("tests/loop_snippets/driver.cpp"));
-    if compiled_or_skip("the_cpp_snippets_match_the_table", &mut compiler) {
-        driven("c++", &[&program]);
+    compiler.args(["-std=c++14", "-x", "c++", "-fsyntax-only"]).args(warnings).arg(&source);
+    compiled_or_skip(test, &mut compiler);
+}
+
+#[test]
+fn the_c_sharp_loops_match_the_tables() {
+    let driver = Driver {
+        language: Language::CSharp,
+        file: "driver.cs",
+        each: "namespace In_NAME\n{\nCODE}\n",
+        call: "if (WHEN == 1)\n{\nvar it = new In_NAME.GameLoop(NEW);\nmade = 0.0;\n\
+               foreach (double ns in durations)\n{\nshown = 1.0;\ncount = 0;\nlast = 0.0;\n\
+               SHOWNit.Frame(TIME, step);\nPrint();\n}\n}",
+        shown: "shown = ",
+        whole: "LOOPS\nstatic class Driver\n{\nstatic int count;\nstatic double last, made, shown;\n\
+                static string Text(double number) { return number.ToString(\"R\", System.Globalization.CultureInfo.InvariantCulture); }\n\
+                static void Print() { System.Console.Write(\"{0} {1} {2} {3}\\n\", count, Text(last), Text(made), Text(shown)); }\n\
+                static void Main()\n{\n\
+                var output = new System.IO.StreamWriter(System.Console.OpenStandardOutput());\n\
+                System.Console.SetOut(output);\n\
+                System.Action<double> step = s => { count += 1; last = s; made += s; };\nstring line;\n\
+                while ((line = System.Console.ReadLine()) != null)\n{\nvar words = line.Split(' ');\n\
+                double tick_hz = int.Parse(words[0]), refreshes = int.Parse(words[1]), seconds = int.Parse(words[2]);\n\
+                int engines = int.Parse(words[3]);\nvar durations = new double[int.Parse(words[4])];\n\
+                for (int n = 0; n < durations.Length; n++) durations[n] = long.Parse(System.Console.ReadLine());\n\
+                CALLS\n}\noutput.Flush();\n}\n}\n",
+    };
+    let source = driver.written();
+    let program = source.with_extension("exe");
+    let mut compiler = Command::new("mcs");
+    compiler.args(["-warnaserror", &format!("-out:{}", program.display())]).arg(&source);
+    if compiled_or_skip("the_c_sharp_loops_match_the_tables", &mut compiler) {
+        driver.matches(Command::new("mono").arg(&program));
     }
 }
 
 #[test]
-fn the_c_sharp_snippets_match_the_table() {
-    let folder = build_folder("loops-cs");
-    let program = folder.join("driver.exe");
-    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
-    let mut compiler = Command::new("mcs");
-    compiler.args(["-warnaserror", &format!("-out:{}", program.display())]);
-    compiler.arg(root.join("tests/loop_snippets/driver.cs"));
-    for card in POLICIES.iter() {
-        for snippet in card.snippets.iter().filter(|snippet| snippet.language == "c#") {
-            // All of them have a class of one name.
-            let inside =
-                format!("namespace In_{}\n{{\n{}}}\n", card.id.replace('-', "_"), snippet.source);
-            let path = folder.join(format!("{}.cs", card.id));
-            fs::write(&path, inside).unwrap();
-            compiler.arg(path);
-        }
+fn the_javascript_loops_match_the_tables() {
+    let driver = Driver {
+        language: Language::JavaScript,
+        file: "driver.js",
+        each: "{\nCODE\nruns.push((out, tick_hz, refreshes, seconds, engines, durations) => {\n\
+               if (WHEN !== 1) return;\nconst it = new GameLoop(NEW);\nlet made = 0;\n\
+               for (const ns of durations) {\nlet count = 0, last = 0, shown = 1;\n\
+               SHOWNit.frame(TIME, (s) => { count += 1; last = s; made += s; });\n\
+               out.push(`${count} ${last} ${made} ${shown}`);\n}\n});\n}\n",
+        call: "",
+        shown: "shown = ",
+        whole: "'use strict';\nconst runs = [];\nLOOPS\n\
+                const words = require('fs').readFileSync(0, 'utf8').split(/\\s+/).map(Number);\n\
+                let at = 0;\nconst out = [];\nwhile (at + 5 < words.length) {\n\
+                const [tick_hz, refreshes, seconds, engines, frames] = words.slice(at, at + 5);\nat += 5;\n\
+                const durations = words.slice(at, at + frames);\nat += frames;\n\
+                for (const run of runs) run(out, tick_hz, refreshes, seconds, engines, durations);\n}\n\
+                process.stdout.write(out.join('\\n') + '\\n');\n",
+    };
+    let mut version = Command::new("node");
+    if compiled_or_skip("the_javascript_loops_match_the_tables", version.arg("--version")) {
+        driver.matches(Command::new("node").arg(driver.written()));
     }
-    if compiled_or_skip("the_c_sharp_snippets_match_the_table", &mut compiler) {
-        driven("c#", &[Path::new("mono"), &program]);
+}
+
+#[test]
+fn the_lua_loops_match_the_tables() {
+    let driver = Driver {
+        language: Language::Lua,
+        file: "driver.lua",
+        each: "do\nCODE\nruns[#runs + 1] = function(tick_hz, refreshes, seconds, engines, durations)\n\
+               if WHEN ~= 1 then return end\nlocal it, made = GameLoop.new(NEW), 0.0\n\
+               for _, ns in ipairs(durations) do\nlocal count, last, shown = 0, 0.0, 1.0\n\
+               SHOWNit:frame(TIME, function(s) count = count + 1 last = s made = made + s end)\n\
+               io.write(string.format('%d %.17g %.17g %.17g\\n', count, last, made, shown))\nend\nend\nend\n",
+        call: "",
+        shown: "shown = ",
+        whole: "local runs = {}\nLOOPS\nwhile true do\n\
+                local tick_hz, refreshes, seconds, engines, frames = io.read('n', 'n', 'n', 'n', 'n')\n\
+                if not frames then break end\nlocal durations = {}\n\
+                for n = 1, frames do durations[n] = io.read('n') end\n\
+                for _, run in ipairs(runs) do run(tick_hz, refreshes, seconds, engines, durations) end\nend\n",
+    };
+    let mut version = Command::new("lua5.4");
+    if compiled_or_skip("the_lua_loops_match_the_tables", version.arg("-v")) {
+        driver.matches(Command::new("lua5.4").arg(driver.written()));
+    }
+}
+
+#[test]
+fn every_loop_is_printed_in_gdscript_with_indented_blocks() {
+    for card in cards() {
+        let code = loop_code(card.id, card.lines().unwrap(), Language::GdScript).unwrap();
+        let lines: Vec<&str> = code.lines().filter(|line| !line.trim().is_empty()).collect();
+        let depth = |line: &str| line.len() - line.trim_start_matches('\t').len();
+        for pair in lines.windows(2).filter(|pair| !pair[0].trim_start().starts_with('#')) {
+            let deeper = depth(pair[1]) > depth(pair[0]);
+            assert_eq!(pair[0].ends_with(':'), deeper, "{}: {pair:?}", card.id);
+        }
+        assert!(code.contains("step.call("), "{code}");
     }
 }

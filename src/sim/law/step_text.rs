@@ -15,6 +15,7 @@ use super::tape::Tape;
 pub use frames::{FrameInput, FrameOutput, LoopText};
 pub(crate) use linear::{AT_TARGET, Frame, NO_RETURN, remembers_place};
 pub use linear::{LinearRule, RuleBody};
+pub(crate) use loop_tree::LoopName;
 pub use map::StepMap;
 use method::{Array, Function, Machine, Taken};
 pub use method::{General, Input, Request, StepCall};
@@ -29,6 +30,7 @@ pub(crate) use tree::{Operation, StepBody, bracketed};
 
 mod frames;
 mod linear;
+mod loop_tree;
 mod map;
 mod method;
 mod paths;

@@ -30,10 +30,11 @@ pub(super) fn declarations(body: StepBody<'_>) -> Declarations {
         .collect();
     let mut constants = vec![false; known.len()];
     let mut found = Declarations { lines: vec![None; all.len()], above: Vec::new() };
+    let left_out = body.left_out();
     for (at, line) in all.iter().enumerate() {
         let Line::Assign { name, value, declares, .. } = line else { continue };
         let (name, is_whole) = (*name, body.is_whole(*name));
-        if at < known[name] {
+        if at < known[name] || left_out[at] || body.ticks(at).is_some() {
             continue;
         }
         if !is_local(all, &ends, name, at) {

@@ -151,6 +151,8 @@ pub(super) struct Dialect {
     pub(super) while_block: &'static str,
     /// Line that ends a block; empty if indentation does this.
     pub(super) end: &'static str,
+    /// Lines of a block without any.
+    pub(super) nothing: &'static [&'static str],
     /// Text at the end of a line whose expression continues on the next line.
     pub(super) line_break: &'static str,
     pub(super) return_value: &'static str,
@@ -158,6 +160,10 @@ pub(super) struct Dialect {
     pub(super) last_value: &'static str,
     /// The sign between the memory and a field of it.
     pub(super) member: &'static str,
+    /// What stands before a number that a game loop keeps.
+    pub(super) own: &'static str,
+    /// Template for the index of an array, with `VALUE` for the number.
+    pub(super) index: &'static str,
     /// The sign between a function that was handed over and its arguments.
     pub(super) call: &'static str,
     /// The last argument of such a call.
@@ -223,10 +229,13 @@ const RUST: Dialect = Dialect {
     else_block: "} else {",
     while_block: "while VALUE {",
     end: "}",
+    nothing: &[],
     line_break: "",
     return_value: "return VALUE;",
     last_value: "VALUE",
     member: ".",
+    own: "self.",
+    index: "VALUE as usize",
     call: "",
     user: "",
     reference: "&",
@@ -276,6 +285,8 @@ const C: Dialect = Dialect {
     counter: "int NAME = VALUE;",
     last_value: "return VALUE;",
     member: "->",
+    own: "loop->",
+    index: "(int)VALUE",
     user: ", user",
     reference: "",
     if_block: "if (VALUE) {",
@@ -328,6 +339,7 @@ const C_SHARP: Dialect = Dialect {
     else_block: "}\nelse\n{",
     while_block: "while (VALUE)\n{",
     member: ".",
+    own: "",
     user: "",
     spelt: c_sharp_name,
     function_name: |_, name| pascal(name),
@@ -381,9 +393,12 @@ const GD_SCRIPT: Dialect = Dialect {
     else_block: "else:",
     while_block: "while VALUE:",
     end: "",
+    nothing: &["pass"],
     line_break: " \\",
     return_value: "return VALUE",
     last_value: "return VALUE",
+    own: "",
+    index: "int(VALUE)",
     call: ".call",
     reference: "",
     words: &[("nan", "NAN"), ("abs", "absf"), ("min", "minf"), ("max", "maxf"), ("ln", "log")],
@@ -407,6 +422,8 @@ const JAVA_SCRIPT: Dialect = Dialect {
     last_value: "return VALUE;",
     if_block: "if (VALUE) {",
     while_block: "while (VALUE) {",
+    own: "this.",
+    index: "VALUE | 0",
     reference: "",
     spelt: camel,
     function_name: |method, name| camel(&format!("{method}_{name}")),
@@ -462,6 +479,7 @@ const LUA: Dialect = Dialect {
     end: "end",
     return_value: "return VALUE",
     last_value: "return VALUE",
+    index: "math.floor(VALUE)",
     reference: "",
     is_compound: false,
     written_out: &["sign", "step", "round", "hypot", "sinh", "cosh", "tanh"],

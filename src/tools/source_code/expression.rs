@@ -2,9 +2,10 @@
 
 use std::collections::BTreeMap;
 
+use super::declarations::{Declaration, declarations};
 use super::dialect::{Dialect, Precision};
 use crate::sim::law::{
-    Expression, Level, Line, MethodInput, Operation, StepBody, StepText, bracketed,
+    Expression, Level, Line, LoopName, MethodInput, Operation, StepBody, StepText, bracketed,
 };
 
 /// The prefix of a number that the memory carries.
@@ -12,6 +13,10 @@ const FIELD: &str = "memory_";
 
 /// The key of the acceleration among the [spellings], since a number can have its name.
 const ACCELERATION: &str = "a()";
+
+/// Words of the code around the lines of a game loop.
+const LOOP_WORDS: &str = "step duration_ns duration_ms durationNs durationMs user loop self game_loop GameLoop Frame Action \
+                          setmetatable";
 
 /// The spelling of each name of a text in a language.
 pub(super) type Spellings<'t> = BTreeMap<&'t str, String>;
@@ -28,22 +33,65 @@ pub(super) fn spellings<'t>(text: &'t StepText, dialect: &Dialect) -> Spellings<
     let inputs = || bodies().flat_map(StepBody::inputs);
     let fields = text.body().names().iter().map(|name| field_or_name(name));
     let names = bodies().flat_map(|body| body.names()).map(|name| field_or_name(name));
-    let first = ["x", "v", "h", "memory"].into_iter();
+    let is_loop = text.is_loop();
+    let first: &[&str] = if is_loop { &[] } else { &["x", "v", "h", "memory"] };
+    let found = declarations(text.body()).lines.into_iter().zip(text.body().lines());
+    let constants: Vec<&str> = found
+        .filter_map(|(found, line)| match line {
+            Line::Assign { name, .. } if is_loop && found == Some(Declaration::Constant) => {
+                Some(&*text.body().names()[*name])
+            }
+            _ => None,
+        })
+        .collect();
+    // A field cannot share the name of the function of a frame.
+    let is_frame_field = |name: &str| {
+        let carried = text.carried().iter().map(|carried| field_or_name(&carried.name));
+        name == "frame" && carried.chain(text.arrays().map(|(name, ..)| name)).any(|it| it == name)
+    };
+    let is_loop_word = |word: &str| {
+        let mut words = LOOP_WORDS.split_whitespace();
+        is_loop && (words.any(|it| it == word) || is_frame_field(word))
+    };
+    let arrays = text.arrays().map(|(name, ..)| name);
     let taken = inputs().map(|input| key(&input));
     let mut spellings = Spellings::new();
-    for name in first.chain(taken).chain(fields).chain(names) {
+    let first = first.iter().copied();
+    for name in first.chain(taken).chain(fields).chain(arrays).chain(names) {
         if spellings.contains_key(name) {
             continue;
         }
-        let plain = name.trim_end_matches("()");
-        let (mut free, mut spelling) = (plain.to_owned(), (dialect.spelt)(plain));
-        while dialect.is_reserved(&spelling) || spellings.values().any(|it| *it == spelling) {
+        let plain = match LoopName::ALL.iter().find(|it| is_loop && it.name() == name) {
+            Some(told) => loop_word(*told, text.is_whole_loop()).to_owned(),
+            None if constants.contains(&name) => name.to_uppercase(),
+            None => name.trim_end_matches("()").to_owned(),
+        };
+        let is_duration = plain == "duration_ms";
+        let (mut free, mut spelling) = (plain.clone(), (dialect.spelt)(&plain));
+        while dialect.is_reserved(&spelling)
+            || is_loop_word(&spelling) && !is_duration
+            || spellings.values().any(|it| *it == spelling)
+        {
             free += "_own";
             spelling = (dialect.spelt)(&free);
         }
         spellings.insert(name, spelling);
     }
     spellings
+}
+
+/// Returns the name in code of a number that a game loop is told.
+fn loop_word(name: LoopName, is_whole: bool) -> &'static str {
+    match name {
+        LoopName::Duration if is_whole => "dt",
+        LoopName::Duration => "duration_ms",
+        LoopName::Tick => "tick",
+        LoopName::Shown => "shown",
+        LoopName::Made => "ticks_left",
+        LoopName::Refresh | LoopName::Second | LoopName::Cost | LoopName::Now | LoopName::First => {
+            name.name()
+        }
+    }
 }
 
 /// Returns a name without the prefix of a field of the memory.
@@ -88,10 +136,43 @@ impl<'t> Names<'t> {
     /// Returns the number or the field of the memory with this index.
     pub(super) fn name(&self, index: usize) -> String {
         let name = self.spelling(field_or_name(&self.body.names()[index]));
-        match self.body.is_field(index) {
+        match self.body.is_field(index) || self.body.is_kept(index) {
+            true if self.body.is_loop() => format!("{}{name}", self.dialect.own),
             true => format!("{}{}{name}", self.spelling("memory"), self.dialect.member),
             false => name,
         }
+    }
+
+    /// Returns a number that a game loop is told, or the moment that it shows.
+    pub(super) fn told(&self, name: LoopName) -> String {
+        let index = self.body.names().iter().position(|known| known == name.name());
+        index.map_or_else(String::new, |index| self.name(index))
+    }
+
+    /// Returns the number of an array at an index.
+    pub(super) fn element(&self, array: &str, index: &'t Expression) -> String {
+        let (text, level) = self.expression(index, false);
+        let number = (index.size() == 1).then(|| self.body.operation(index, 0));
+        self.indexed(array, number, &text, level)
+    }
+
+    fn indexed(
+        &self,
+        array: &str,
+        operation: Option<Operation<'_>>,
+        text: &str,
+        level: Option<Level>,
+    ) -> String {
+        let own = self.dialect.own;
+        let index = match operation {
+            Some(Operation::Number { value, .. }) => format!("{value:.0}"),
+            _ => {
+                let is_loose = level.is_some() && !self.dialect.index.contains("(VALUE)");
+                let text = if is_loose { format!("({text})") } else { bare(text).to_owned() };
+                self.dialect.index.replace("VALUE", &text)
+            }
+        };
+        format!("{own}{}[{index}]", self.spelling(array))
     }
 
     /// Returns the name of a function of the text.
@@ -127,6 +208,11 @@ impl<'t> Names<'t> {
                     (converted.replace("NAME", &self.name(name)), None)
                 }
                 Operation::Name(name) => (self.name(name), None),
+                Operation::Element { array, index: at } => {
+                    let (text, level) = &written[at];
+                    let number = self.body.operation(expression, at);
+                    (self.indexed(array, Some(number), text, *level), None)
+                }
                 Operation::Infix { sign, level, operands: [left, right], breaks } => {
                     let space = if breaks { dialect.broken_line() } else { " ".into() };
                     let [left, right] =
@@ -209,13 +295,12 @@ impl<'t> Names<'t> {
 
     /// Returns the functions of the language of steps that this language has only if they are written out.
     pub(super) fn written_out(&self, line: &'t Line) -> Vec<&'static str> {
-        let Some(expression) = line.value() else { return Vec::new() };
-        let called = |index| match self.body.operation(expression, index) {
+        let called = |(expression, index)| match self.body.operation(expression, index) {
             Operation::Call { function, .. } => Some(function),
             _ => None,
         };
-        let called = (0..expression.size()).filter_map(called);
-        called.filter(|function| self.dialect.writes_out(function)).collect()
+        let all = line.values().flat_map(|value| (0..value.size()).map(move |at| (value, at)));
+        all.filter_map(called).filter(|function| self.dialect.writes_out(function)).collect()
     }
 }
 

@@ -1,9 +1,9 @@
 //! The comment above a method's function, with the description and the limits of the method, from its card.
 
 use super::dialect::Language;
-use super::printer::takes_function;
+use super::printer::{rates, shows, takes_function};
 use crate::sim::integrators::{Engine, Family, Method};
-use crate::sim::law::{MethodInput, StepBody, StepText};
+use crate::sim::law::{LoopText, MethodInput, StepBody, StepText};
 
 /// Width of the comment, in characters.
 const WIDTH: usize = 96;
@@ -74,6 +74,85 @@ pub(super) fn of_rule(about: &[String], text: &StepText, language: Language) -> 
     }
     paragraphs.push(answer(language, text));
     paragraphs.iter().flat_map(|paragraph| wrapped(paragraph)).collect()
+}
+
+/// Returns the lines of the comment above a game loop.
+pub(super) fn of_loop(id: &str, text: &LoopText, language: Language) -> Vec<String> {
+    let claim = |key| LoopText::claim(text.source(), key);
+    let sentence = |words: &str| format!("{}.", words.trim_end_matches('.'));
+    let name = match [claim("name"), claim("version")] {
+        ["", _] => id.to_owned(),
+        [name, ""] => format!("{name} ({id})"),
+        [name, version] => format!("{name} {version} ({id})"),
+    };
+    let about = [claim("about"), claim("gives")].into_iter().find(|words| !words.is_empty());
+    let mut paragraphs = vec![match about {
+        Some(about) => format!("{name}: {}", sentence(about)),
+        None => sentence(&name),
+    }];
+    let known = if claim("version").is_empty() { "Source" } else { "Known by" };
+    let more =
+        [("Rule", "gives"), ("Constants", "constants"), ("Beware", "caveat"), (known, "known")];
+    for (title, key) in more {
+        if !claim(key).is_empty() && about != Some(claim(key)) {
+            paragraphs.push(format!("{title}: {}", sentence(claim(key))));
+        }
+    }
+    paragraphs.push(String::new());
+    let rates = rates(text.text().body());
+    if rates.contains(&"tick_hz") {
+        let whole =
+            if text.is_whole() { ", a whole number, so that no time is rounded" } else { "" };
+        paragraphs.push(format!("tick_hz: ticks a second{whole}."));
+    }
+    if rates.contains(&"refreshes") {
+        paragraphs.push(
+            "refreshes, seconds: the refreshes of the display in so many seconds: 60 and 1, or 2997 and 50 at 59.94 Hz."
+                .into(),
+        );
+    }
+    if rates.contains(&"cost_ms") {
+        paragraphs.push("cost_ms: the time that a tick takes the machine, in milliseconds.".into());
+    }
+    let unit = if text.is_whole() { "nanoseconds" } else { "milliseconds" };
+    let (function, handed_on) = match language {
+        Language::C => ("game_loop_frame", ", user"),
+        Language::CSharp => ("Frame", ""),
+        _ => ("frame", ""),
+    };
+    paragraphs.push(format!(
+        "Call {function} once a frame, with the duration of the last one in {unit}. It calls \
+         step(seconds{handed_on}) for each tick{}",
+        if shows(text.text().body()) {
+            ", and returns the moment to draw."
+        } else {
+            ". Draw the last tick."
+        }
+    ));
+    if shows(text.text().body()) {
+        paragraphs.push(drawing(claim("draws")).into());
+    }
+    paragraphs.iter().flat_map(|paragraph| wrapped(paragraph)).collect()
+}
+
+/// Returns how to draw the moment that a loop shows.
+fn drawing(drawn: &str) -> &'static str {
+    match drawn {
+        "Hermite" => {
+            "The moment is 0 at the last tick but one and 1 at the last: draw the cubic through the positions and \
+             velocities of both."
+        }
+        "extrapolated" => {
+            "The moment is 1 at the last tick and 2 at the next: draw x + v * (moment - 1) * (seconds of a tick)."
+        }
+        "a copy stepped on" => {
+            "The moment is 1 at the last tick and 2 at the next: step a copy on by (moment - 1) * (seconds of a tick), \
+             draw it, and drop it."
+        }
+        _ => {
+            "The moment is 0 at the last tick but one and 1 at the last: draw before + (last - before) * moment."
+        }
+    }
 }
 
 /// Whether the step has an input with this name.

@@ -6,6 +6,11 @@ use super::expression::{Names, Spellings, spellings};
 use crate::sim::law::{Level, Line, MethodInput, StepBody, StepText};
 use crate::sim::text::hides_or_breaks;
 
+mod game_loop;
+
+use game_loop::returns_shown;
+pub(super) use game_loop::{print_loop, rates, shows};
+
 /// Maximum length of a line, in characters. A longer line is broken at its commas.
 const LINE_CHARS: usize = 100;
 
@@ -414,14 +419,45 @@ impl Printer {
             let start = if *kind == Declaration::Counter { "0" } else { "0.0" };
             self.push_filled(declaration(*kind), &names.name(*name), start);
         }
-        let last = lines.iter().rposition(|line| !matches!(line, Line::Remark(_) | Line::Blank));
+        let left_out = names.body.left_out();
+        let is_said =
+            |n: &usize| !left_out[*n] && !matches!(lines[*n], Line::Remark(_) | Line::Blank);
+        let last = (0..lines.len()).rev().find(is_said);
+        // Whether each open block is still empty, which some languages have to be told.
+        let mut is_empty = vec![true];
+        let start = self.text.len();
         for (n, line) in lines.iter().enumerate() {
+            if left_out[n] {
+                continue;
+            }
             let is_block_end = matches!(lines.get(n + 1), Some(Line::End | Line::Else));
             match line {
-                // Only loops have arrays, which no other language has yet.
-                Line::Store { .. } => {}
+                Line::End | Line::Else if is_empty.pop() == Some(true) => {
+                    self.push_lines(dialect.nothing)
+                }
+                _ => {}
+            }
+            match line {
+                Line::Blank | Line::Remark(_) => {}
+                Line::Else => is_empty.push(true),
+                _ => is_empty.iter_mut().for_each(|is| *is = false),
+            }
+            match line {
+                Line::Store { array, index, value } => {
+                    let at = names.element(names.body.array(*array), index);
+                    let assignment = format!("{at} = {}", names.expression(value, false).0);
+                    self.push_filled(dialect.assignment, "", &assignment);
+                }
+                Line::Blank if names.body.is_loop() && self.text.ends_with("\n\n") => {}
+                Line::Blank if names.body.is_loop() && self.text.len() == start => {}
                 Line::Blank => self.push_lines(&[""]),
                 Line::Remark(text) => self.print_comment(text),
+                Line::Assign { .. } if let Some(ticks) = names.body.ticks(n) => {
+                    self.print_ticks(names, ticks);
+                }
+                Line::Assign { value, .. } if names.body.shows(n) && returns_shown(names.body) => {
+                    self.push_filled(dialect.last_value, "", &names.expression(value, false).0);
+                }
                 Line::Assign { name, joins, value, .. } => {
                     let (value, level) = names.expression(value, names.body.is_whole(*name));
                     let name = names.name(*name);
@@ -438,12 +474,14 @@ impl Printer {
                     let template = if is_if { dialect.if_block } else { dialect.while_block };
                     self.push_filled(template, "", &names.expression(value, false).0);
                     self.depth += 1;
+                    is_empty.push(true);
                 }
                 Line::Return(value) => {
                     let is_last = Some(n) == last;
                     let template = if is_last { dialect.last_value } else { dialect.return_value };
                     self.push_filled(template, "", &names.expression(value, false).0);
                 }
+                Line::Stop { .. } if names.body.is_loop() => self.end_frame(names, is_block_end),
                 Line::Stop { fails } => {
                     let moves = |line: &Line| matches!(line, Line::Assign { name: X | V, .. });
                     self.end_early(*fails, lines[..n].iter().any(moves), is_block_end);

@@ -91,6 +91,12 @@ impl LoopText {
         Ok(format!("{} {value}{}", &text[..at.start], &text[at.end..]))
     }
 
+    /// Returns the words of a remark `# key: words` of a text.
+    pub fn claim<'t>(text: &'t str, key: &str) -> &'t str {
+        let mut remarks = text.lines().filter_map(|line| line.strip_prefix("# "));
+        remarks.find_map(|remark| remark.strip_prefix(key)?.strip_prefix(": ")).unwrap_or_default()
+    }
+
     /// Returns the constants of a text, each with the byte range of its value and that value as text.
     pub fn constants(text: &str) -> Vec<(String, Range<usize>, String)> {
         let (plain, _) = plain(text);
@@ -106,6 +112,11 @@ impl LoopText {
     /// Returns the original text.
     pub fn source(&self) -> &str {
         self.text.source()
+    }
+
+    /// Returns the lines as a printer reads them.
+    pub(crate) fn text(&self) -> &StepText {
+        &self.text
     }
 
     /// Whether the picture lies between two ticks.

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-pub(super) use frames::{COST, FIRST, FRAME_NAMES, LENGTH, NOW, REFRESH, SECOND, SHOWN};
+pub(super) use frames::{COST, COUNT, FIRST, FRAME_NAMES, LENGTH, NOW, REFRESH, SECOND, SHOWN};
 use functions::end_of;
 
 use super::method::{Array, Function as OwnFunction, Machine, Taken};

@@ -38,8 +38,8 @@ impl<'a> MethodInput<'a> {
 /// The lines of a step, or of one of its functions.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct StepBody<'t> {
-    text: &'t StepText,
-    function: Option<&'t Function>,
+    pub(super) text: &'t StepText,
+    pub(super) function: Option<&'t Function>,
 }
 
 /// An operation of an expression. Operands are indices of nodes before it.
@@ -64,6 +64,11 @@ pub(crate) enum Operation<'t> {
     Call {
         function: &'static str,
         arguments: &'t [usize],
+    },
+    /// The number of an array at an index.
+    Element {
+        array: &'t str,
+        index: usize,
     },
     /// A call of the acceleration at a position and a velocity.
     Acceleration([usize; 2]),
@@ -133,14 +138,16 @@ impl StepText {
 
     /// Returns the reason why no other language can have the lines; `None` if they can.
     pub(crate) fn unwritable(&self) -> Option<&'static str> {
+        if self.is_loop()
+            && self.lines.iter().any(|line| matches!(line, Line::Stop { fails: true }))
+        {
+            return Some("its `fail` takes back ticks; write `stay`");
+        }
         let bodies = self.functions.iter().map(|function| &function.lines).chain([&self.lines]);
-        let mut values = bodies.flatten().filter_map(Line::value);
+        let mut values = bodies.flatten().flat_map(Line::values);
         values.find_map(|expression| {
             let mut sizes: Vec<usize> = Vec::with_capacity(expression.nodes.len());
             for node in &expression.nodes {
-                if node.op == Op::Element {
-                    return Some("arrays have no words there yet");
-                }
                 if node.op == Op::If || node.op.is_table() {
                     return Some(
                         "`if(…)` and `table(…)` have no words there; write blocks of `if`",
@@ -172,6 +179,15 @@ impl Line {
         }
     }
 
+    /// Returns all expressions of the line, with that of an index.
+    pub(crate) fn values(&self) -> impl Iterator<Item = &Expression> {
+        let index = match self {
+            Line::Store { index, .. } => Some(index),
+            _ => None,
+        };
+        index.into_iter().chain(self.value())
+    }
+
     /// The number of blocks that the line opens, less those that it closes.
     pub(crate) fn depth(&self) -> i32 {
         match self {
@@ -184,7 +200,7 @@ impl Line {
     /// Whether the line assigns or reads a name.
     pub(crate) fn mentions(&self, name: usize) -> bool {
         let assigns = matches!(self, Line::Assign { name: assigned, .. } if *assigned == name);
-        assigns || self.value().is_some_and(|value| value.reads(name))
+        assigns || self.values().any(|value| value.reads(name))
     }
 }
 
@@ -251,7 +267,7 @@ impl<'t> StepBody<'t> {
         match self.function {
             Some(function) => name < function.inputs.iter().filter(|is| !**is).count(),
             None => {
-                name <= TARGET
+                name <= self.last_told()
                     || self.is_field(name)
                     || self.text.inputs.iter().any(|taken| taken.name == Some(name))
             }
@@ -266,7 +282,9 @@ impl<'t> StepBody<'t> {
 
     /// Whether a name is a whole number, which lines declared as such count.
     pub(crate) fn is_whole(self, name: usize) -> bool {
-        let inputs = self.text.inputs.iter().filter(|_| self.function.is_none());
+        // The whole times of a loop are numbers like all others.
+        let has_inputs = self.function.is_none() && !self.is_loop();
+        let inputs = self.text.inputs.iter().filter(|_| has_inputs);
         let is_taken = inputs.clone().any(|taken| taken.is_whole && taken.name == Some(name));
         let mut assigned = self.lines().iter().filter_map(|line| match line {
             Line::Assign { name: other, joins, value, declares } if *other == name => {
@@ -347,6 +365,7 @@ impl<'t> StepBody<'t> {
                 written: literal(self.source(), &expression.spans[index], node.number),
             },
             Op::Input => Operation::Name(node.index),
+            Op::Element => Operation::Element { array: self.array(node.index), index: a },
             Op::Negate => match expression.ceiling(a) {
                 Some(arguments) => Operation::Call { function: "ceil", arguments },
                 None => Operation::Negate(a),
