@@ -6,20 +6,11 @@ use serde_json::Value;
 
 use super::argument::brief;
 use super::error::Error;
-use super::experiment::Experiment;
 use super::manifest::{self, FILE_NAME, Manifest, SCHEMA};
-use super::settings::{self, CaptureSettings};
+use super::settings::{self, CapturedRun};
 use crate::regular_file::{self, Unreadable};
 use crate::run::race::Mode;
-use crate::scene::{Check, Scene};
-
-/// The run of a capture, as its manifest describes it.
-pub(super) struct CapturedRun {
-    pub(super) capture: CaptureSettings,
-    pub(super) experiment: Experiment,
-    /// The states that the lanes reached, by tick.
-    pub(super) checks: Vec<Check>,
-}
+use crate::scene::Scene;
 
 /// Returns a function that makes the error for a capture in `dir` that cannot be judged, from the reason.
 pub(super) fn unjudged(dir: &Path) -> impl Fn(String) -> Error {

@@ -14,8 +14,9 @@ use super::terminal::{print_status, report_left_alone};
 use crate::studio::Studio;
 use crate::view::{OffscreenRenderer, PreparedFrame, png};
 
-/// Draws the run of `studio` into `folder`, and reports the result on standard error. The studio must be at the start
-/// of `experiment`, and `drawing` and the renderer must be those of `capture`. Returns the studio at the end of the run.
+/// Draws the run of `studio` into `folder`, and reports the result on standard error. The studio must be at the
+/// start of `experiment`, and `drawing` and the renderer must be those of `capture`. Returns the studio at the end
+/// of the run.
 pub(super) fn record(
     experiment: &Experiment,
     drawing: Drawing,

@@ -1,6 +1,5 @@
 //! The settings of a capture, and their conversion to and from those of a manifest.
 
-use super::captured::CapturedRun;
 use super::experiment::Experiment;
 use super::frame_names::{MAX_FRAMES, frame_name};
 use super::id::{CLOUD, INSTRUMENT, TRACE};
@@ -9,7 +8,7 @@ use super::schedule::{MAX_FPS, Schedule};
 use crate::look::palette::Theme;
 use crate::measure::cloud::{CloudChoice, CloudKind};
 use crate::run::race::Mode;
-use crate::scene::Scene;
+use crate::scene::{Check, Scene};
 use crate::sim::integrators::method;
 use crate::studio::{Instrument, Motion, RunCommand, Studio};
 #[cfg(feature = "view")]
@@ -35,6 +34,14 @@ pub(super) struct CaptureSettings {
     pub(super) mark_every: u64,
     #[cfg(feature = "view")]
     pub(super) renderer: RendererChoice,
+}
+
+/// The run of a capture, as its manifest describes it.
+pub(super) struct CapturedRun {
+    pub(super) capture: CaptureSettings,
+    pub(super) experiment: Experiment,
+    /// The states that the lanes reached, by tick.
+    pub(super) checks: Vec<Check>,
 }
 
 impl CaptureSettings {

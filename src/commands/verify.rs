@@ -9,12 +9,12 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use clap::{Args, ValueEnum};
 
 use super::argument::{brief, number_that};
-use super::captured::CapturedRun;
 use super::error::Error;
 use super::frame_names::is_of_a_capture;
 use super::help::flowing;
 use super::manifest::FrameEntry;
 use super::output::same_file_path;
+use super::settings::CapturedRun;
 use super::state_log::StateLog;
 use crate::studio::Studio;
 

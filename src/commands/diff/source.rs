@@ -8,8 +8,9 @@ use std::thread;
 
 use csv::ByteRecord;
 
-use crate::commands::captured::{CapturedRun, read_run};
+use crate::commands::captured::read_run;
 use crate::commands::error::Error;
+use crate::commands::settings::CapturedRun;
 use crate::commands::{scene_file, verify};
 use crate::regular_file::{self, Unreadable};
 use crate::run::diff::{NotComparable, Records, is_header};

@@ -10,7 +10,7 @@ use super::physics::{PhysicsChange, first_change};
 use super::pixels;
 use super::report::{DIRECTORY, Report, print_line};
 use super::{Frames, Repeated, VerifyArgs};
-use crate::commands::captured::{CapturedRun, read_run, unjudged};
+use crate::commands::captured::{read_run, unjudged};
 #[cfg(feature = "view")]
 use crate::commands::clip::record;
 use crate::commands::error::Error;
@@ -23,6 +23,7 @@ use crate::commands::interrupt::watch_for_interrupt;
 use crate::commands::manifest::{FILE_NAME, Manifest, fingerprint};
 use crate::commands::output::DirectoryLock;
 use crate::commands::scene_file;
+use crate::commands::settings::CapturedRun;
 use crate::commands::terminal::print_status;
 use crate::sim::number::counted;
 

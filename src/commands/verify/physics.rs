@@ -4,8 +4,8 @@ use std::fmt::Display;
 
 use serde_json::Value;
 
-use crate::commands::captured::CapturedRun;
 use crate::commands::manifest::FrameEntry;
+use crate::commands::settings::CapturedRun;
 use crate::commands::state_log::{self, StateLog};
 use crate::scene::{Check, clip};
 use crate::studio::Studio;

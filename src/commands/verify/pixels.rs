@@ -7,7 +7,6 @@ use super::physics::other_moment;
 use super::{Frames, Repeated, VerifyArgs};
 use crate::atomic_file::IfExists;
 use crate::commands::argument::brief;
-use crate::commands::captured::CapturedRun;
 use crate::commands::drawing::{adapter, interrupted_after};
 use crate::commands::error::{Error, PlaceOf};
 use crate::commands::frame_names::{frames_claimed, is_marked, not_ours};
@@ -16,6 +15,7 @@ use crate::commands::manifest::{Adapter, FILE_NAME, FrameEntry, Manifest, finger
 use crate::commands::output::begin_file;
 use crate::commands::pipeline::{DrawnFrame, Pipeline};
 use crate::commands::schedule::Schedule;
+use crate::commands::settings::CapturedRun;
 use crate::commands::terminal::print_status;
 use crate::regular_file;
 use crate::sim::number::counted;
