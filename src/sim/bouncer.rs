@@ -254,13 +254,11 @@ impl<P: Clone, V: Vector> Bouncer<P, V> {
                 Ok(part)
             }
             Locating::ByCubic => {
-                let [a, b] = [v0 * h, v1 * h];
-                let cubic = |s: f64| {
-                    let (c, d) = (3.0 * (last - start) - 2.0 * a - b, 2.0 * (start - last) + a + b);
-                    [start + s * (a + s * (c + s * d)), a + s * (2.0 * c + s * 3.0 * d)]
-                };
-                let part = root([start, last], up, |s| Ok(cubic(s)[0]))?;
-                end.set_speed(cubic(part)[1] / h, y);
+                let slopes = [h * v0, h * v1];
+                let part = root([start, last], up, |s| Ok(cubic([start, last], slopes, s)))?;
+                // Its slope would be less accurate than a cubic of the speeds.
+                let pushes = [begin.push(body, t, &self.from), end.push(body, t + h, y)];
+                end.set_speed(cubic([v0, v1], pushes.map(|a| h * a), part), y);
                 Ok(part)
             }
             Locating::ByMethod => {
@@ -276,6 +274,12 @@ impl<P: Clone, V: Vector> Bouncer<P, V> {
             }
         }
     }
+}
+
+/// Returns the value at `s`, 0 to 1, of the cubic with these ends and these slopes there.
+fn cubic([start, last]: [f64; 2], [a, b]: [f64; 2], s: f64) -> f64 {
+    let (c, d) = (3.0 * (last - start) - 2.0 * a - b, 2.0 * (start - last) + a + b);
+    start + s * (a + s * (c + s * d))
 }
 
 /// Returns the zero of the straight line from `start`, 0 or more, to `last`, which is negative.
