@@ -246,14 +246,14 @@ impl<P: Clone, V: Vector> Bouncer<P, V> {
         let push = if start == 0.0 { begin.push(body, t, &self.from) } else { 0.0 };
         let up = if push < 0.0 { (v0 / -push / h).min(0.5) } else { 0.0 };
         match locating {
-            Locating::ByChord | Locating::BySpeedAtEnd => {
+            Locating::Chord | Locating::SpeedAtEnd => {
                 let part = if start == 0.0 { 1.0 } else { chord(start, last) };
-                if locating == Locating::ByChord {
+                if locating == Locating::Chord {
                     end.set_speed(v0 + part * (v1 - v0), y);
                 }
                 Ok(part)
             }
-            Locating::ByCubic => {
+            Locating::Cubic => {
                 let slopes = [h * v0, h * v1];
                 let part = root([start, last], up, |s| Ok(cubic([start, last], slopes, s)))?;
                 // Its slope would be less accurate than a cubic of the speeds.
@@ -261,7 +261,7 @@ impl<P: Clone, V: Vector> Bouncer<P, V> {
                 end.set_speed(cubic([v0, v1], pushes.map(|a| h * a), part), y);
                 Ok(part)
             }
-            Locating::ByMethod => {
+            Locating::Method => {
                 let Self { probe, from, trial, .. } = self;
                 let part = root([start, last], up, |s| {
                     trial.assign(from);
