@@ -101,15 +101,15 @@ pub(super) fn run(args: &TraceArgs) -> Result<(), Error> {
 
 /// The table that is being written: of ticks, or of impacts.
 enum TraceOrImpacts<'a> {
-    Ticks(Trace<'a>),
-    Impacts(Impacts),
+    Ticks(Box<Trace<'a>>),
+    Impacts(Box<Impacts>),
 }
 
 impl<'a> TraceOrImpacts<'a> {
     fn begin(args: &'a TraceArgs, studio: &Studio) -> io::Result<Self> {
         Ok(match args.has_impacts {
-            true => Self::Impacts(Impacts::begin(args.format, studio)?),
-            false => Self::Ticks(Trace::begin(args)?),
+            true => Self::Impacts(Impacts::begin(args.format, studio)?.into()),
+            false => Self::Ticks(Trace::begin(args)?.into()),
         })
     }
 

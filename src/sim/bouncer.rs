@@ -246,24 +246,22 @@ impl<P: Clone, V: Vector> Bouncer<P, V> {
         let push = if start == 0.0 { begin.push(body, t, &self.from) } else { 0.0 };
         let up = if push < 0.0 { (v0 / -push / h).min(0.5) } else { 0.0 };
         match locating {
-            Locating::ByChord | Locating::BySpeedAtEnd => {
+            Locating::Chord | Locating::SpeedAtEnd => {
                 let part = if start == 0.0 { 1.0 } else { chord(start, last) };
-                if locating == Locating::ByChord {
+                if locating == Locating::Chord {
                     end.set_speed(v0 + part * (v1 - v0), y);
                 }
                 Ok(part)
             }
-            Locating::ByCubic => {
-                let [a, b] = [v0 * h, v1 * h];
-                let cubic = |s: f64| {
-                    let (c, d) = (3.0 * (last - start) - 2.0 * a - b, 2.0 * (start - last) + a + b);
-                    [start + s * (a + s * (c + s * d)), a + s * (2.0 * c + s * 3.0 * d)]
-                };
-                let part = root([start, last], up, |s| Ok(cubic(s)[0]))?;
-                end.set_speed(cubic(part)[1] / h, y);
+            Locating::Cubic => {
+                let slopes = [h * v0, h * v1];
+                let part = root([start, last], up, |s| Ok(cubic([start, last], slopes, s)))?;
+                // Its slope would be less accurate than a cubic of the speeds.
+                let pushes = [begin.push(body, t, &self.from), end.push(body, t + h, y)];
+                end.set_speed(cubic([v0, v1], pushes.map(|a| h * a), part), y);
                 Ok(part)
             }
-            Locating::ByMethod => {
+            Locating::Method => {
                 let Self { probe, from, trial, .. } = self;
                 let part = root([start, last], up, |s| {
                     trial.assign(from);
@@ -276,6 +274,12 @@ impl<P: Clone, V: Vector> Bouncer<P, V> {
             }
         }
     }
+}
+
+/// Returns the value at `s`, 0 to 1, of the cubic with these ends and these slopes there.
+fn cubic([start, last]: [f64; 2], [a, b]: [f64; 2], s: f64) -> f64 {
+    let (c, d) = (3.0 * (last - start) - 2.0 * a - b, 2.0 * (start - last) + a + b);
+    start + s * (a + s * (c + s * d))
 }
 
 /// Returns the zero of the straight line from `start`, 0 or more, to `last`, which is negative.

@@ -65,13 +65,13 @@ pub(super) enum Rule {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Locating {
     /// By shorter steps of the method.
-    ByMethod,
+    Method,
     /// On the cubic through both ends of the step.
-    ByCubic,
+    Cubic,
     /// On the straight line, which also gives the speed.
-    ByChord,
+    Chord,
     /// On the straight line, with the speed at the end of the step.
-    BySpeedAtEnd,
+    SpeedAtEnd,
 }
 
 /// What a rule changes after a step.
@@ -103,7 +103,7 @@ macro_rules! impacts {
 
 /// Every rule for impacts. The first is the default.
 pub static IMPACTS: &[Impact] = impacts! {
-    "locate" Some(0.0), Rule::Within(Locating::ByMethod),
+    "locate" Some(0.0), Rule::Within(Locating::Method),
         "finds the impact within the step by shorter steps of the method, which then steps the rest";
     "velocity" Some(0.0), Rule::After(Change::Velocity),
         "below the floor and falling: only the velocity is turned";
@@ -117,13 +117,13 @@ pub static IMPACTS: &[Impact] = impacts! {
         "as clamp, with the speed that the energy at the floor gives";
     "before-tick" Some(1.0), Rule::BeforeTick,
         "at the next tick, the velocity from before gravity is turned; the position stays (Jolt, Chipmunk, Godot)";
-    "locate-cubic" Some(0.0), Rule::Within(Locating::ByCubic),
+    "locate-cubic" Some(0.0), Rule::Within(Locating::Cubic),
         "as locate, on the cubic through both ends of the step";
-    "locate-chord" Some(0.0), Rule::Within(Locating::ByChord),
+    "locate-chord" Some(0.0), Rule::Within(Locating::Chord),
         "as locate, on the straight line through both ends of the step, which gives the speed too";
     "swept" Some(1.0), Rule::Swept,
         "the straight line gives the time of impact; the rest of the step is straight with the turned velocity";
-    "swept-step" Some(0.5), Rule::Within(Locating::BySpeedAtEnd),
+    "swept-step" Some(0.5), Rule::Within(Locating::SpeedAtEnd),
         "the straight line gives the time of impact, the end of the step the speed; the method steps the rest";
     "penalty" None, Rule::Penalty,
         "no impact: a damped spring of 4.77 Hz pushes out of the floor";

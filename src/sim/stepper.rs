@@ -90,8 +90,8 @@ pub trait Stepper: Send {
     /// second solution with other steps. An unknown error is infinite. Returns `None` under a method.
     fn truth_error(&self) -> Option<[f64; 2]>;
 
-    /// Returns the time (s) of the true impact of this number since the last input, edit or placement, and the height of
-    /// the flight after it. `None` under a method, and if there is no such impact.
+    /// Returns the time (s) of the true impact of this number since the last input, edit or placement, and the height
+    /// of the flight after it. `None` under a method, and if there is no such impact.
     fn true_bounce(&self, impact: u64) -> Option<[f64; 2]>;
 
     /// Returns an upper bound on the memory of the stepper under its `solver`, in bytes.

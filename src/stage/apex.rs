@@ -28,7 +28,8 @@ fn apex(swept: impl Iterator<Item = SweptRange>) -> Option<f64> {
     (is_down && most_m > 0.0).then_some(most_m)
 }
 
-/// Marks the height of a body's jump or last bounce and that of the exact one, and writes the difference in the words that fit.
+/// Marks the height of a body's jump or last bounce, and that of the exact one. Writes the difference in the words that
+/// fit.
 pub(super) fn draw(
     picture: &mut Picture,
     camera: &Camera,

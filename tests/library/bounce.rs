@@ -378,11 +378,11 @@ fn j_changes_the_rule_of_the_selected_lane_in_flight() {
         studio.race().entrants().iter().map(|lane| lane.spec.impact.id).collect()
     };
     let before = rules(&studio);
-    assert_eq!(before[1], "clamp");
+    assert_eq!(before[1], "velocity");
     studio.apply(RunCommand::NextImpact);
     studio.tick();
     let after = rules(&studio);
-    assert_eq!((after[1], &after[2..]), ("mirror", &before[2..]));
+    assert_eq!((after[1], &after[2..]), ("velocity-blind", &before[2..]));
     assert_eq!(studio.race().entrants()[1].lane.bodies()[0].stepper.bounces().unwrap().impacts, 1);
 }
 
