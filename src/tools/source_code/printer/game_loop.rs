@@ -60,7 +60,7 @@ pub(in crate::tools::source_code) fn shows(body: StepBody<'_>) -> bool {
     (0..body.lines().len()).any(|n| body.shows(n))
 }
 
-/// Returns what a loop keeps, of which the numbers that it is told come first.
+/// Returns what a loop keeps, of which the numbers that it is given come first.
 fn kept(file: &File<'_>) -> Vec<Kept> {
     let (names, text) = (file.step(), file.text);
     let (body, is_whole) = (names.body, text.is_whole_loop());
