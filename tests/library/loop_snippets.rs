@@ -131,7 +131,7 @@ struct Driver {
 const ENGINE_TRACE: [usize; 2] = [0, 1];
 
 /// Lines of a person, with names that are words of the languages and of the code around the lines.
-const ODD: &str = "
+const ODD: &str = "# Falls and gets up.
 memory frame = 0
 memory self = 1
 memory end = 0
@@ -417,5 +417,6 @@ fn every_loop_is_printed_in_gdscript_with_indented_blocks() {
             assert_eq!(pair[0].ends_with(':'), deeper, "{}: {pair:?}", card.id);
         }
         assert!(code.contains("step.call("), "{code}");
+        assert_eq!(code.matches("# Falls and gets up.").count(), usize::from(card.id == "odd"));
     }
 }

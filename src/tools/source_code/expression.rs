@@ -80,7 +80,7 @@ pub(super) fn spellings<'t>(text: &'t StepText, dialect: &Dialect) -> Spellings<
     spellings
 }
 
-/// Returns the name in code of a number that a game loop is told.
+/// Returns the name in code of a number that a game loop is given.
 fn loop_word(name: LoopName, is_whole: bool) -> &'static str {
     match name {
         LoopName::Duration if is_whole => "dt",
@@ -143,7 +143,7 @@ impl<'t> Names<'t> {
         }
     }
 
-    /// Returns a number that a game loop is told, or the moment that it shows.
+    /// Returns a number that a game loop is given, or the moment that it shows.
     pub(super) fn told(&self, name: LoopName) -> String {
         let index = self.body.names().iter().position(|known| known == name.name());
         index.map_or_else(String::new, |index| self.name(index))

@@ -90,6 +90,10 @@ pub(super) fn of_loop(id: &str, text: &LoopText, language: Language) -> Vec<Stri
         Some(about) => format!("{name}: {}", sentence(about)),
         None => sentence(&name),
     }];
+    // A person's remarks above their lines, but for the claims of a card.
+    let remarks = text.source().lines().map_while(|line| line.strip_prefix("# "));
+    let own = remarks.filter(|remark| about.is_none() && !remark.contains(": "));
+    paragraphs.extend(own.map(str::to_owned));
     let known = if claim("version").is_empty() { "Source" } else { "Known by" };
     let more =
         [("Rule", "gives"), ("Constants", "constants"), ("Beware", "caveat"), (known, "known")];

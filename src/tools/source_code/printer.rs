@@ -423,7 +423,7 @@ impl Printer {
         let is_said =
             |n: &usize| !left_out[*n] && !matches!(lines[*n], Line::Remark(_) | Line::Blank);
         let last = (0..lines.len()).rev().find(is_said);
-        // Whether each open block is still empty, which some languages have to be told.
+        // Whether each open block is still empty, for which some languages need a word.
         let mut is_empty = vec![true];
         let start = self.text.len();
         for (n, line) in lines.iter().enumerate() {

@@ -4,7 +4,7 @@ use super::reader::{COST, COUNT, FIRST, FRAME_NAMES, LENGTH, NOW, REFRESH, SECON
 use super::{H, Line, StepBody, StepText, TARGET};
 use crate::sim::law::expression::Expression;
 
-/// A number that a loop is told, or the moment that it shows.
+/// A number that a loop is given, or the moment that it shows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum LoopName {
     /// Duration of the frame, `dt`.

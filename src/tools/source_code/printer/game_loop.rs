@@ -34,7 +34,7 @@ pub(in crate::tools::source_code) fn print_loop(
     printer.text
 }
 
-/// Returns the numbers that a loop is made for, by which its times are whole or in milliseconds.
+/// Returns the names of the numbers that a loop is made for.
 pub(in crate::tools::source_code) fn rates(body: StepBody<'_>) -> Vec<&'static str> {
     let rates = [
         (LoopName::Tick, &["tick_hz"][..]),
@@ -60,24 +60,19 @@ pub(in crate::tools::source_code) fn shows(body: StepBody<'_>) -> bool {
     (0..body.lines().len()).any(|n| body.shows(n))
 }
 
-/// Returns what a loop keeps, of which the numbers that it is told come first.
+/// Returns what a loop keeps, of which the numbers that it is given come first.
 fn kept(file: &File<'_>) -> Vec<Kept> {
     let (names, text) = (file.step(), file.text);
     let (body, is_whole) = (names.body, text.is_whole_loop());
     let rate = |word: &str| (names.dialect.spelt)(word);
     let has = |name| body.depends_on(name);
-    let mut unit = String::new();
-    let mut scale = |name, word| {
-        if is_whole && has(name) {
-            unit = format!("{unit} * {}", rate(word));
-        }
+    let factor = |(name, word)| match is_whole && has(name) {
+        true => format!(" * {}", rate(word)),
+        false => String::new(),
     };
-    scale(LoopName::Tick, "tick_hz");
-    scale(LoopName::Refresh, "refreshes");
-    let hz = if has(LoopName::Tick) { format!(" * {}", rate("tick_hz")) } else { String::new() };
+    let [hz, times] = [(LoopName::Tick, "tick_hz"), (LoopName::Refresh, "refreshes")].map(factor);
     let [refreshes, seconds] = ["refreshes", "seconds"].map(rate);
-    let times = if has(LoopName::Refresh) { format!(" * {refreshes}") } else { String::new() };
-    let second = if is_whole { format!("1e9{unit}") } else { "1000.0".into() };
+    let second = if is_whole { format!("1e9{hz}{times}") } else { "1000.0".into() };
     let told = [
         (
             LoopName::Tick,
@@ -96,7 +91,7 @@ fn kept(file: &File<'_>) -> Vec<Kept> {
         (
             LoopName::Cost,
             match is_whole {
-                true => format!("1e6{unit} * {}", rate("cost_ms")),
+                true => format!("1e6{hz}{times} * {}", rate("cost_ms")),
                 false => rate("cost_ms"),
             },
         ),
