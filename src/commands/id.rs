@@ -57,7 +57,8 @@ impl<T: Copy> Id<T> {
             lists => {
                 let lists: Vec<_> =
                     lists.iter().map(|list| format!("`regatta list {list}`")).collect();
-                format!("{} name all", lists.join(" and "))
+                let (last, others) = lists.split_last().expect("it has two lists at least");
+                format!("{} and {last} name all", others.join(", "))
             }
         };
         Err(format!("no such {}{} {see}", self.thing, meant.unwrap_or(".".into())))

@@ -423,8 +423,7 @@ mod tests {
 
     #[test]
     fn many_histories_thin_their_samples_and_fit_into_the_memory() {
-        for (histories, is_full) in
-            [(1, true), (32, true), (128, true), (160, false), (2048, false)]
+        for (histories, is_full) in [(1, true), (32, true), (80, true), (160, false), (2048, false)]
         {
             let capacity = capacity_of(histories);
             assert_eq!(capacity == CAPACITY, is_full, "{histories}");

@@ -91,9 +91,9 @@ impl LaneSpec {
         format!("{name}{times}{within}{}{}", self.joint_suffix(lanes), self.impact_suffix(lanes))
     }
 
-    /// Returns the rule for impacts as a suffix, if one of `lanes` has another than the default.
+    /// Returns the rule for impacts as a suffix, if one of `lanes` has another rule.
     fn impact_suffix(&self, lanes: &[LaneSpec]) -> String {
-        let is_told = lanes.iter().chain([self]).any(|lane| lane.impact != &IMPACTS[0]);
+        let is_told = lanes.iter().any(|lane| lane.impact != self.impact);
         if is_told { format!(", {}", self.impact.id) } else { String::new() }
     }
 

@@ -29,11 +29,11 @@ fn apex(swept: impl Iterator<Item = SweptRange>) -> Option<f64> {
 }
 
 /// Marks the height of a body's jump or last bounce, and that of the exact one. Writes the difference in the words that
-/// fit.
+/// fit, unless the stage is crowded.
 pub(super) fn draw(
     picture: &mut Picture,
     camera: &Camera,
-    moment: &DrawContext<'_>,
+    (moment, is_crowded): (&DrawContext<'_>, bool),
     lane: &Entrant,
     index: usize,
 ) {
@@ -55,6 +55,9 @@ pub(super) fn draw(
         let [x, y] = camera.points(DVec2::new(0.0, height));
         let ends = [[x - APEX, y], [x + APEX, y]];
         picture.pen(camera.rect).dashed(ends, 1.6, colour, [5.0, 3.0]);
+    }
+    if is_crowded {
+        return;
     }
     let percent = 100.0 * (lane_m / exact_m - 1.0);
     let differs = match percent.abs() < 0.05 {

@@ -321,7 +321,7 @@ impl BodyCell<'_> {
         futures::label_ends(picture, moment, ends, self.room());
         flags(picture, &flagged, lift, palette, (room, camera.rect, name));
         if Look::of(truth).has_ground() && truth.halted().is_none() {
-            apex::draw(picture, camera, moment, self.front, index);
+            apex::draw(picture, camera, (moment, !lost.is_empty()), self.front, index);
         }
         if shows_ghost {
             let half = row_width(flagged.len()) / 2.0 + camera.block;

@@ -7,6 +7,7 @@ use crate::dice::Dice;
 use regatta::run::past::{Past, TruthSample};
 use regatta::run::{Event, EventKind, Run, SNAPSHOT_BYTES, Session};
 use regatta::scene::{Action, LaneId, LaneSpec, Scene};
+use regatta::sim::IMPACTS;
 use regatta::sim::bodies::BODIES;
 use regatta::sim::integrators::GENERAL_METHODS;
 use regatta::studio::{Command, RunCommand, StageCommand, Studio};
@@ -37,11 +38,15 @@ fn scene(dice: &mut Dice, n: usize) -> Scene {
         "pendulum"
     } else if n % 40 == 10 {
         "follow"
+    } else if n % 20 == 15 {
+        "ball"
     } else {
         kinds[n % 6]
     };
-    let names =
-        ["harbour", "spring", "chain", "orbit", "ship", "pendulum", "helm", "stiff", "follow"];
+    let names = [
+        "harbour", "spring", "chain", "orbit", "ship", "pendulum", "helm", "stiff", "follow",
+        "ball",
+    ];
     let built_in = |name: &&str| Scene::built_in(name).expect("a built-in scene");
     let all: Vec<Scene> = names.iter().map(built_in).collect();
     let of = |kind: &str| all.iter().flat_map(|s| &s.bodies).find(|b| b.kind.id == kind).cloned();
@@ -53,7 +58,10 @@ fn scene(dice: &mut Dice, n: usize) -> Scene {
     }
     let mut lanes: Vec<LaneSpec> = Vec::new();
     while lanes.len() < 1 + n % 3 {
-        let spec = dice.spec();
+        let mut spec = dice.spec();
+        if first == "ball" {
+            spec.impact = &IMPACTS[dice.below(IMPACTS.len())];
+        }
         if !lanes.contains(&spec) {
             lanes.push(spec);
         }

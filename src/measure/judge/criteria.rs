@@ -310,7 +310,8 @@ impl Judge {
             (Some(modes), None) => modes.are_as_wide(truth.horizon_s).unwrap_or(is_near),
             (None, None) => is_near,
         };
-        // An error that no shift in time explains is one of the shape.
+        // An error that no shift in time explains is one of the shape, or of a chaotic motion that conserves energy.
+        let crossings = crossings.filter(|_| truth.energy_scale.is_none());
         let is_of_shape = crossings.is_some_and(|crossings| {
             let shift = swing.lead_s(crossings, run.error_at_s);
             run.error > 2.0 * (swing.error_when(shift) + VISIBLE)

@@ -53,8 +53,8 @@ impl Swing {
         ratios.max_by(|a, b| libm::log(*a).abs().total_cmp(&libm::log(*b).abs()))
     }
 
-    /// Returns the seconds by which this swing is ahead of one that crosses its centre upwards at these times (s), where
-    /// both cross nearest to `t` and within half a period.
+    /// Returns the lead in seconds over a swing that crosses its centre upwards at these times (s). It is that of the
+    /// crossings nearest to `t`, and at most half a period.
     pub(in crate::measure) fn lead_s(&self, crossings: &[f64], t: f64) -> f64 {
         let nearest = |crossings: &[f64], t: f64| {
             let apart = |a: &f64, b: &f64| (a - t).abs().total_cmp(&(b - t).abs());

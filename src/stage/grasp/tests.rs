@@ -65,7 +65,7 @@ fn a_held_body_is_drawn_under_the_pointer() {
         let reached = cell.camera.points(held.handle);
         let wanted = match kind.id {
             "ship" | "spring" | "follow" => off(&grip, [40.0, 0.0]),
-            "chain" => off(&grip, [0.0, -31.0]),
+            "chain" | "ball" => off(&grip, [0.0, -31.0]),
             "pendulum" => reached,
             _ => off(&grip, [40.0, -31.0]),
         };

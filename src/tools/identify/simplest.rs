@@ -239,7 +239,8 @@ fn simplest_of_models(log: &Log) -> Option<Fitted> {
     best
 }
 
-/// Returns a swing whose rest moves at a steady speed, if the log shows a turn of it and nothing simpler explains as much.
+/// Returns a swing whose rest moves at a steady speed. `None` if the log shows less than a turn, or if a simpler motion
+/// explains as much.
 pub(super) fn drifting(log: &Log, body: &LoggedBody) -> Option<SimpleMotion> {
     let (swing, v) = drifting_swing(log, body)?;
     let (hz, damping_ratio) = (swing.seen.frequency_hz()?, swing.seen.damping_ratio()?);

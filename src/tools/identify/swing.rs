@@ -32,8 +32,8 @@ pub struct FittedSwing {
     pub(super) lag: f64,
 }
 
-/// Stiffness and damping per unit of mass, the rest, the coordinate and velocity of the first row, and the velocity of the
-/// rest.
+/// Stiffness and damping per unit of mass, the rest, the coordinate and velocity of the first row, and the rest's own
+/// velocity.
 type Parameters = [f64; 6];
 
 /// Returns the distance from the rest `t` seconds after the start `[x, v]`, by the closed form of x″ = -k x - c x′.

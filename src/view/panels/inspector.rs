@@ -286,7 +286,10 @@ mod tests {
             let texts = texts(&studio);
             let count = |wanted: &str| texts.iter().filter(|text| *text == wanted).count();
             let named = |name: &str| {
-                let is_of = |text: &&String| text.split(" ×").next() == Some(name);
+                let is_of = |text: &&String| {
+                    let told = text.strip_prefix(name);
+                    told.is_some_and(|told| told.is_empty() || told.starts_with([',', ' ']))
+                };
                 texts.iter().filter(is_of).count()
             };
             let bodies = &studio.scene().bodies;

@@ -126,7 +126,7 @@ fn range(step: &OneStep, axis: usize) -> [f64; 2] {
     let [low, high] = values.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], value| {
         [low.min(value), high.max(value)]
     });
-    let size = (high - low).max(1e-6 * low.abs().max(high.abs())).max(1e-30);
+    let size = (high - low).max(1e-4 * low.abs().max(high.abs())).max(1e-30);
     [low - MARGIN * size, high + MARGIN * size]
 }
 

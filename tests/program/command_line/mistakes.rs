@@ -39,7 +39,7 @@ fn each_mistake_is_named_with_its_remedy() {
         ("trace --every 0", "0 is not in 1..="),
         ("trace --sceen ship", "a similar argument exists: '--scene'"),
         ("trace --format xml", "csv, json"),
-        ("list", "<scenes|methods|bodies|metrics|policies|engine-loops|traces|keys>"),
+        ("list", "<scenes|methods|impacts|bodies|metrics|policies|engine-loops|traces|keys>"),
         ("list method", "a similar value exists: 'methods'"),
         ("sail", "unrecognized subcommand 'sail'"),
         ("harbor", "tip: there is `regatta harbour`"),

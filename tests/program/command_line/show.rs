@@ -75,10 +75,10 @@ fn a_misspelt_name_gets_the_nearest_suggestion() {
         ("show", "<METHOD|POLICY|FILE>"),
         (
             "show rk5",
-            "did you mean rk4? `regatta list methods` and `regatta list policies` name all",
+            "did you mean rk4? `regatta list methods`, `regatta list policies` and `regatta list impacts` name all",
         ),
         ("show runge-kutta", "did you mean rk4?"),
-        ("show x", "no such method or policy. `regatta list methods`"),
+        ("show x", "no such method, policy or rule. `regatta list methods`"),
         ("show fixed-liner", "did you mean fixed-linear?"),
         ("show rk4 --as cobol", "There are rust, c, csharp, gdscript, javascript, lua, cpp"),
         ("show rk4 --as csharpp", "did you mean csharp?"),

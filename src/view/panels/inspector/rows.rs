@@ -137,7 +137,10 @@ mod tests {
         kinds.dedup();
         assert_eq!(
             kinds,
-            ["chain", "follow", "helm", "law", "net", "orbit", "pendulum", "ship", "spring"]
+            [
+                "ball", "chain", "follow", "helm", "law", "net", "orbit", "pendulum", "ship",
+                "spring"
+            ]
         );
     }
 
