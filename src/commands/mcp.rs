@@ -58,7 +58,7 @@ const TOOLS: &[Tool] = &[
     ("verify", &[]),
 ];
 const JSON: &[&str] = &["--format=json"];
-/// Options that write files, or need one that does.
+/// Options that write files, need one that does, or are about this machine.
 const KEPT_BACK: [&str; 9] =
     ["bless", "diff", "force", "frame-rows", "out", "plot", "report", "round-off", "threads"];
 
@@ -110,9 +110,7 @@ fn answer(line: &[u8]) -> Option<Value> {
     let found = match method {
         "initialize" => Ok(greeting(&message["params"])),
         "ping" => Ok(json!({})),
-        "tools/list" => {
-            Ok(json!({"tools": TOOLS.iter().filter_map(described).collect::<Vec<_>>()}))
-        }
+        "tools/list" => Ok(tools()),
         "tools/call" => call(&message["params"]),
         _ => Err((NO_METHOD, format!("no method is called {method}"))),
     };
@@ -137,11 +135,20 @@ fn greeting(asked: &Value) -> Value {
     })
 }
 
-/// Returns the command line's own description of a command.
-fn command(name: &str) -> Option<clap::Command> {
+/// Returns the description of the whole command line.
+fn command_line() -> clap::Command {
     let mut cli = Cli::command();
     cli.build();
-    cli.find_subcommand(name).cloned()
+    cli
+}
+
+/// Describes every tool.
+fn tools() -> Value {
+    let cli = command_line();
+    let all = TOOLS.iter().filter_map(|(name, fixed)| {
+        cli.find_subcommand(name).map(|command| described(command, fixed))
+    });
+    json!({"tools": all.collect::<Vec<_>>()})
 }
 
 /// Returns the arguments of a command that a tool takes, with the name of each. The `fixed` ones are given already.
@@ -164,11 +171,10 @@ fn takes_many(arg: &Arg) -> bool {
 }
 
 /// Describes a tool with the schema of its arguments.
-fn described((name, fixed): &Tool) -> Option<Value> {
-    let command = command(name)?;
+fn described(command: &clap::Command, fixed: &'static [&'static str]) -> Value {
     let mut properties = Map::new();
     let mut required = Vec::new();
-    for (name, arg) in arguments(&command, fixed) {
+    for (name, arg) in arguments(command, fixed) {
         let help = arg.get_long_help().or(arg.get_help()).map(ToString::to_string);
         let one = json!({"type": ["string", "number"]});
         let mut schema = match arg.get_action() {
@@ -184,8 +190,8 @@ fn described((name, fixed): &Tool) -> Option<Value> {
     }
     let about = command.get_about().map(ToString::to_string).unwrap_or_default();
     let more = command.get_after_long_help().map(ToString::to_string).unwrap_or_default();
-    Some(json!({
-        "name": name,
+    json!({
+        "name": command.get_name(),
         "description": format!("{about}\n\n{more}"),
         "inputSchema": {
             "type": "object",
@@ -194,7 +200,7 @@ fn described((name, fixed): &Tool) -> Option<Value> {
             "additionalProperties": false,
         },
         "annotations": {"readOnlyHint": true, "openWorldHint": false},
-    }))
+    })
 }
 
 /// Runs a tool, and returns what it says. A run that fails is an answer too.
@@ -202,13 +208,14 @@ fn call(asked: &Value) -> Result<Value, Fault> {
     let name = asked["name"].as_str().unwrap_or_default();
     let unknown = || (NO_ARGUMENTS, format!("no tool is called {name:?}; tools/list has them"));
     let (name, fixed) = TOOLS.iter().find(|(tool, _)| *tool == name).ok_or_else(unknown)?;
-    let command = command(name).ok_or_else(unknown)?;
+    let cli = command_line();
+    let command = cli.find_subcommand(name).ok_or_else(unknown)?;
     let nothing = Map::new();
     let given = asked["arguments"].as_object().unwrap_or(&nothing);
     let (mut options, mut operands) = (Vec::new(), Vec::new());
     for (key, value) in given {
-        let Some((key, arg)) = arguments(&command, fixed).find(|(name, _)| name == key) else {
-            let known: Vec<_> = arguments(&command, fixed).map(|(name, _)| name).collect();
+        let Some((key, arg)) = arguments(command, fixed).find(|(name, _)| name == key) else {
+            let known: Vec<_> = arguments(command, fixed).map(|(name, _)| name).collect();
             let why = format!("{name} has no argument {key:?}; it takes {}", known.join(", "));
             return Err((NO_ARGUMENTS, why));
         };
@@ -228,7 +235,7 @@ fn call(asked: &Value) -> Result<Value, Fault> {
         options.push("--".to_owned());
     }
     let is_picture = *name == "capture";
-    let said = ran(name, options.into_iter().chain(operands), is_picture);
+    let said = output_of(name, options.into_iter().chain(operands), is_picture);
     said.or_else(|why| Ok(json!({"content": [text(&why)], "isError": true})))
 }
 
@@ -242,7 +249,7 @@ fn text(text: &str) -> Value {
 }
 
 /// Runs a command and returns its output as the result of a tool, or why it cannot be had.
-fn ran(
+fn output_of(
     name: &str,
     arguments: impl Iterator<Item = String>,
     is_picture: bool,
@@ -252,19 +259,12 @@ fn ran(
     let mut command = Command::new(program);
     command.arg(name).args(arguments).stdin(Stdio::null()).stderr(Stdio::piped());
     let mut child = command.stdout(Stdio::piped()).spawn().map_err(cannot)?;
-    let [out, err] = [
-        child.stdout.take().map(|it| Box::new(it) as Box<dyn Read + Send>),
-        child.stderr.take().map(|it| Box::new(it) as Box<dyn Read + Send>),
-    ];
+    let (out, err) = (child.stdout.take(), child.stderr.take());
     let most = if is_picture { MAX_PICTURE_BYTES } else { MAX_BYTES };
-    let all_of = |from: Option<Box<dyn Read + Send>>| {
-        let mut bytes = Vec::new();
-        from.map_or(Ok(0), |from| from.take(most + 1).read_to_end(&mut bytes)).map(|_| bytes)
-    };
     // Both ends are read at once, for a pipe that is full halts the command.
     let (said, notes) = std::thread::scope(|scope| {
-        let notes = scope.spawn(|| all_of(err));
-        (all_of(out), notes.join())
+        let notes = scope.spawn(|| start_of(err, most));
+        (start_of(out, most), notes.join())
     });
     let said = said.map_err(cannot)?;
     let notes = notes.ok().and_then(Result::ok).unwrap_or_default();
@@ -283,4 +283,13 @@ fn ran(
     let content: Vec<Value> =
         [Some(answer).filter(|it| it["text"] != ""), notes].into_iter().flatten().collect();
     Ok(json!({"content": content, "isError": !is_fine}))
+}
+
+/// Reads a pipe to its end, or to one byte more than `most`.
+fn start_of(pipe: Option<impl Read>, most: u64) -> io::Result<Vec<u8>> {
+    let mut bytes = Vec::new();
+    if let Some(pipe) = pipe {
+        pipe.take(most + 1).read_to_end(&mut bytes)?;
+    }
+    Ok(bytes)
 }

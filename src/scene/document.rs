@@ -335,7 +335,7 @@ fn described(lane: &LaneSpec) -> String {
     let LaneSpec { method, substeps, tolerance, joint, impact } = lane;
     let within = tolerance.map(|tolerance| format!(" and `tolerance = {tolerance:e}`"));
     let told = joint.map(|joint| format!(" and `joint_hz = {}`", joint.frequency_hz));
-    let bounces = (*impact != <&Impact>::default()).then(|| format!(" and `impact = {impact:?}`"));
+    let bounces = (!impact.is_default()).then(|| format!(" and `impact = {impact:?}`"));
     let beside = [within, told, bounces].into_iter().flatten().collect::<String>();
     format!("{:?} with `substeps = {substeps}`{beside}", method.id)
 }

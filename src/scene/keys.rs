@@ -7,7 +7,7 @@ use super::{MAX_SUBSTEPS, TOLERANCES};
 use crate::scene::{LaneSpec, Swing};
 use crate::sim::bodies::Range;
 use crate::sim::integrators::{METHODS, Method};
-use crate::sim::{IMPACTS, Impact, TickRate};
+use crate::sim::{Impact, TickRate};
 
 /// A key with a reader into a draft `D` and a writer from a `T`.
 pub(super) struct Key<D: 'static, T: 'static> {
@@ -159,7 +159,7 @@ pub(super) static SPEC: [Key<SpecDraft, LaneSpec>; 6] = [
     Key {
         field: IMPACT,
         read: |spec, row, field| spec.impact = row.impact(field).or(spec.impact),
-        write: |spec| (spec.impact != &IMPACTS[0]).then(|| quoted(spec.impact.id)),
+        write: |spec| (!spec.impact.is_default()).then(|| quoted(spec.impact.id)),
     },
 ];
 

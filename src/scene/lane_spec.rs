@@ -4,7 +4,7 @@ use std::fmt;
 
 use crate::sim::integrators::{Method, Override};
 use crate::sim::number::round;
-use crate::sim::{IMPACTS, Impact, Range, Solver};
+use crate::sim::{Impact, Range, Solver};
 
 /// Number of a lane, from 1 in the order of the scene. The number stays the same when other lanes leave the run or
 /// return, and when the lane changes its method.
@@ -76,7 +76,7 @@ impl Swing {
 impl LaneSpec {
     /// Creates a lane under a method with the tolerance and the substeps of the method's card.
     pub fn plain(method: &'static Method) -> Self {
-        let (substeps, impact) = (method.default_substeps, &IMPACTS[0]);
+        let (substeps, impact) = (method.default_substeps, Default::default());
         Self { method, substeps, tolerance: None, joint: None, impact }
     }
 
@@ -121,7 +121,7 @@ impl LaneSpec {
         let joint = self.joint.map(|joint| Override::Joint(joint.per_mass()));
         let setting = joint.or(self.tolerance.map(Override::tolerance));
         match setting {
-            _ if self.impact != &IMPACTS[0] => Solver::Bouncing(self.method, setting, self.impact),
+            _ if !self.impact.is_default() => Solver::Bouncing(self.method, setting, self.impact),
             Some(setting) => Solver::With(self.method, setting),
             None => Solver::Method(self.method),
         }

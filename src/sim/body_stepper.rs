@@ -8,7 +8,7 @@ use glam::DVec2;
 use super::body::Body;
 use super::bouncer::Bouncer;
 use super::exact_flow::ExactFlow;
-use super::impact::{Bounces, impact};
+use super::impact::Bounces;
 use super::integrators::{
     Construct, Integrator, Method, MethodOf, Problem, StepFailure, Stepped, any_integrator,
     construct, problem,
@@ -32,8 +32,7 @@ impl<B: Body> BodyAtState<B> {
     /// Builds the stepper, which starts under the solver at time `t` (s).
     fn begin(mut self, t: f64) -> Box<dyn Stepper> {
         if const { B::HAS_WALLS } {
-            let is_soft = Some(self.solver.impact()) == impact("penalty");
-            self.body.system.soften(is_soft && self.solver != Solver::Truth);
+            self.body.system.soften(self.solver.impact().is_soft());
         }
         if let Some(method) = self.solver.method() {
             let coupling = self.body.coupling();

@@ -1,7 +1,7 @@
 //! The steps of a body that meets walls: a method, and the rule for impacts after or within its steps.
 
 use super::body::Body;
-use super::impact::{Bounces, Change as Turn, Impact, Locating, Rule, Wall};
+use super::impact::{Bounces, Impact, Locating, Rule, Turn, Wall};
 use super::integrators::{Problem, StepFailure, Stepped};
 use super::propagator::Propagator;
 use super::state::{State, Vector};

@@ -28,6 +28,16 @@ pub struct Impact {
 }
 
 impl Impact {
+    /// Whether the rule is the one that a lane has unless it says otherwise.
+    pub fn is_default(&self) -> bool {
+        self == <&Self>::default()
+    }
+
+    /// Whether the rule makes a spring of the wall.
+    pub(super) fn is_soft(&self) -> bool {
+        self.rule == Rule::Penalty
+    }
+
     /// Whether the rule finds the time of an impact within the step; others handle it at the end of the step.
     pub fn finds_the_time(&self) -> bool {
         matches!(self.rule, Rule::Within(_) | Rule::Swept)
@@ -54,7 +64,7 @@ pub(super) enum Rule {
     /// The straight line gives the time; the rest is straight with the new velocity.
     Swept,
     /// Changes the state after the step that ends beyond the wall.
-    After(Change),
+    After(Turn),
     /// Before the next step, by the velocity from before the force of that step.
     BeforeTick,
     /// The wall is a spring.
@@ -74,9 +84,9 @@ pub(super) enum Locating {
     SpeedAtEnd,
 }
 
-/// What a rule changes after a step.
+/// The part of the state that a rule changes after a step, as it turns the body back.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Change {
+pub(super) enum Turn {
     /// The velocity, if the body still moves into the wall.
     Velocity,
     /// The velocity, always.
@@ -105,15 +115,15 @@ macro_rules! impacts {
 pub static IMPACTS: &[Impact] = impacts! {
     "locate" Some(0.0), Rule::Within(Locating::Method),
         "finds the impact within the step by shorter steps of the method, which then steps the rest";
-    "velocity" Some(0.0), Rule::After(Change::Velocity),
+    "velocity" Some(0.0), Rule::After(Turn::Velocity),
         "below the floor and falling: only the velocity is turned";
-    "velocity-blind" Some(0.0), Rule::After(Change::VelocityBlind),
+    "velocity-blind" Some(0.0), Rule::After(Turn::VelocityBlind),
         "below the floor: the velocity is turned, even if it points up already";
-    "clamp" Some(0.5), Rule::After(Change::Clamp),
+    "clamp" Some(0.5), Rule::After(Turn::Clamp),
         "below the floor: back to the floor, and the velocity is turned";
-    "mirror" Some(1.0), Rule::After(Change::Mirror),
+    "mirror" Some(1.0), Rule::After(Turn::Mirror),
         "below the floor: as far above it, and the velocity is turned";
-    "energy" Some(0.0), Rule::After(Change::Energy),
+    "energy" Some(0.0), Rule::After(Turn::Energy),
         "as clamp, with the speed that the energy at the floor gives";
     "before-tick" Some(1.0), Rule::BeforeTick,
         "at the next tick, the velocity from before gravity is turned; the position stays (Jolt, Chipmunk, Godot)";
