@@ -26,6 +26,7 @@ use crate::look::palette::Theme;
 use crate::loops::TraceCard;
 use crate::run::race::Mode;
 use crate::run::trace::last_tick;
+use crate::scene::OPENING;
 use crate::sim::number::counted;
 use crate::studio::{Motion, SavedPreferences, Studio, show_clouds_of_scene};
 use crate::view::RendererChoice;
@@ -96,6 +97,11 @@ pub(super) struct PlayArgs {
 }
 
 impl PlayArgs {
+    /// Whether no option is about the run, as if the program was started by a click.
+    fn asks_for_nothing(&self) -> bool {
+        !self.race && self.loop_trace.is_none() && self.seconds.is_none() && self.record.is_none()
+    }
+
     /// Whether a graphics device may draw.
     pub(super) fn may_take_a_device(&self) -> bool {
         self.renderer != Some(RendererChoice::Cpu)
@@ -116,11 +122,15 @@ pub(super) fn run(args: &PlayArgs) -> Result<(), Error> {
     // A run whose length is given belongs to a script, so it must be the same everywhere.
     let last_scene = preferences.scene.as_deref().filter(|_| args.seconds.is_none());
     let again = last_scene.map(|scene| args.experiment.or_scene(scene));
+    let given = match args.asks_for_nothing() {
+        true => args.experiment.or_scene(Path::new(OPENING)),
+        false => args.experiment.clone(),
+    };
     // The scene file may no longer exist.
     let again = again.and_then(|options| Some((options.load(mode).ok()?, options)));
     let (experiment, options) = match again {
         Some(opened) => opened,
-        None => (args.experiment.load(mode)?, args.experiment.clone()),
+        None => (given.load(mode)?, given),
     };
     let loop_trace = args.loop_trace.or_else(|| scene_file::loop_trace_of(options.scene()));
     let experiment = Experiment { loop_trace, ..experiment };

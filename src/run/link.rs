@@ -187,6 +187,11 @@ impl Link {
         self.packed.is_some()
     }
 
+    /// Whether the link names a scene, a method, a rate or a race.
+    pub fn names_anything(&self) -> bool {
+        !self.names.is_empty()
+    }
+
     /// Whether the link names lanes that race.
     pub fn asks_to_race(&self) -> bool {
         self.names.iter().any(|(key, _)| key == RACE)
@@ -350,6 +355,7 @@ pub fn link_by_name(session: &Session) -> Option<String> {
         opening_method: built_in.opening_method,
         tick_hz: built_in.tick_hz,
         opens_as_race: built_in.opens_as_race,
+        opens_in_bands: built_in.opens_in_bands,
         equal_cost: built_in.equal_cost,
         hint: built_in.hint.clone(),
         ..(**scene).clone()

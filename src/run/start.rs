@@ -95,6 +95,13 @@ impl StartSettings {
         true
     }
 
+    /// Leaves only the methods with these ids in the race. The first is also the solo method.
+    pub(crate) fn race_only(&mut self, ids: &[&str]) {
+        let listed = |id: &&str| self.list.iter().position(|spec| spec.method.id == *id);
+        self.lanes = ids.iter().filter_map(listed).collect();
+        self.entry = self.lanes.first().copied().unwrap_or(self.entry);
+    }
+
     /// Returns the run at its start.
     pub(crate) fn session(&self) -> Session {
         let race = match self.mode {

@@ -150,6 +150,7 @@ impl Scene {
             opening_method: None,
             equal_cost: false,
             opens_as_race: methods.len() != 1,
+            opens_in_bands: false,
             clouds: None,
             bodies: vec![SceneBody { appearance, ..SceneBody::new(name, kind, values) }],
             script: Vec::new(),

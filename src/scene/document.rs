@@ -180,7 +180,7 @@ fn read_clouds(top: &mut Table<'_>, field: &Field) -> Option<CloudKind> {
 }
 
 /// The keys of `[race]`.
-pub(super) static RACE: [Key<Scene, Scene>; 2] = [
+pub(super) static RACE: [Key<Scene, Scene>; 3] = [
     Key {
         field: Field::optional(
             "equal_cost",
@@ -194,6 +194,15 @@ pub(super) static RACE: [Key<Scene, Scene>; 2] = [
         field: Field::optional("open", "opens the scene as a race", Wanted::Boolean),
         read: |scene, race, field| replace_if_read(&mut scene.opens_as_race, race.boolean(field)),
         write: |scene| scene.opens_as_race.then(|| "true".into()),
+    },
+    Key {
+        field: Field::optional(
+            "bands",
+            "shows each lane of a race of one body in a band of its own, beside its code",
+            Wanted::Boolean,
+        ),
+        read: |scene, race, field| replace_if_read(&mut scene.opens_in_bands, race.boolean(field)),
+        write: |scene| scene.opens_in_bands.then(|| "true".into()),
     },
 ];
 
@@ -234,6 +243,7 @@ pub(super) fn read(name: &str, text: &str) -> Result<(Scene, Vec<SceneError>), V
         opening_method: None,
         equal_cost: false,
         opens_as_race: false,
+        opens_in_bands: false,
         clouds: None,
         bodies: Vec::new(),
         script: Vec::new(),

@@ -136,6 +136,8 @@ pub struct Scene {
     pub equal_cost: bool,
     /// Whether the program opens the scene as a race rather than under one method.
     pub opens_as_race: bool,
+    /// Whether a race of the scene's only body opens with each lane in a band of its own, beside its lines of code.
+    pub opens_in_bands: bool,
     /// The kind of the clouds of many starts with which the scene opens; `None` if it opens with the bodies.
     pub clouds: Option<CloudKind>,
     /// The bodies in the order of the file, 1 to [`MAX_BODIES`], each with a unique name.
@@ -361,9 +363,12 @@ macro_rules! scenes {
     };
 }
 
-/// Every built-in scene, in menu order. The program opens with the first.
+/// Name of the scene with which the program opens if nothing else is asked for.
+pub const OPENING: &str = "two-springs";
+
+/// Every built-in scene, in menu order. An option without a scene is about the first.
 pub static SCENES: &[BuiltIn] = scenes! {
-    StartHere: "harbour" "spring" "ship" "damped" "pendulum";
+    StartHere: "harbour" "spring" "ship" "damped" "pendulum" "two-springs";
     Chapter: "stiff" "surge" "chain" "helm";
     Engines: "alike" "engines" "held-force" "stiff-in-engines";
     More: "liouville" "kicked-rotor" "orbit" "follow" "lerp" "duffing" "quarter-car" "bouncing-bungee" "lift" "jump" "ball" "perpetual" "pong" "landing" "rope"

@@ -5,10 +5,19 @@
 pub(super) const LANE_NAMES: f32 = 520.0;
 /// Words beside the bodies of the loop lab.
 pub(super) const WORDS_BESIDE_BODIES: f32 = 420.0;
+/// The code of a band beside its body rather than below it.
+pub(super) const CARD_BESIDE: f32 = 560.0;
 pub(super) const METHOD_BESIDE_LOOP: f32 = 620.0;
 
 // Heights of the stage.
 pub(super) const RULER: f32 = 260.0;
+
+// Heights of a band.
+pub(super) const RULER_OF_BAND: f32 = 110.0;
+/// Words at the head of a cell have their usual size.
+pub(super) const LOW_BAND: f32 = 125.0;
+/// The code of a band below its body.
+pub(super) const CARD_BELOW: f32 = 170.0;
 
 // Widths of a cell.
 pub(super) const NUMBERS: f32 = 330.0;

@@ -382,7 +382,8 @@ pub(super) fn pause(picture: &mut Picture, studio: &Studio, stage: Rect) {
 /// Describes the futures at the foot of the cell, under their threads.
 pub(super) fn futures(picture: &mut Picture, rect: Rect, studio: &Studio, palette: &Palette) {
     let Some([left, _]) = caption_place(rect) else { return };
-    let of = if studio.deck.offered() > 1 { " under each method" } else { "" };
+    let is_one = studio.deck.offered() < 2 || !studio.bands().is_empty();
+    let of = if !is_one { " under each method" } else { "" };
     let words = format!("the next second{of}, a dot a tick");
     let width = LETTER * words.chars().count() as f32;
     let middle = (rect.min[0] + rect.max[0]) / 2.0;
@@ -392,9 +393,14 @@ pub(super) fn futures(picture: &mut Picture, rect: Rect, studio: &Studio, palett
     }
 }
 
+/// Left end of the words at the head of a cell.
+pub(super) fn left_of(rect: Rect) -> f32 {
+    rect.min[0] + 9.0 + inset(rect)
+}
+
 fn caption_place(rect: Rect) -> Option<[f32; 2]> {
     let fits = (0..2).all(|axis| rect.max[axis] - rect.min[axis] >= breakpoints::CAPTION[axis]);
-    fits.then_some([rect.min[0] + 9.0 + inset(rect), rect.min[1] + 13.0])
+    fits.then_some([left_of(rect), rect.min[1] + 13.0])
 }
 
 /// Height below which marks keep clear of the words at the head of a cell.

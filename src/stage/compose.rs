@@ -2,24 +2,24 @@
 
 use glam::DVec2;
 
+use super::bands::{self, Band, Card};
 use super::body::OutlineView;
-use super::flags::{Flag, Lost, badges, clear_number, flags, row_width};
+use super::flags::{Flag, Lost, badges, clear_number, flags};
 use super::framed::{BodyView, on_one_stage, quay_width};
 use super::ghost::Ghost;
 use super::layout::{bands, grid, mosaic};
-use super::loupe::LoupeLane;
 use super::moment::DrawContext;
 use super::sketch::{Camera, LaneStyle, SOLID};
 use super::{
     Cell, Picture, Rect, Whose, apex, breakpoints, captions, chart, futures, hull, loop_stage,
-    loupe, scale_marks, universe,
+    scale_marks, universe,
 };
 use crate::look::palette::{Rgba, fade};
 use crate::look::{Framing, Look};
 use crate::run::race::{Entrant, Mode};
 use crate::scene::{Mark, Outline};
 use crate::studio::{Arrangement, Studio, ZoomPan};
-use crate::studio::{DIGITS, shown_state, shows_futures, without_futures};
+use crate::studio::{DIGITS, future_of_lane, futures, shown_state, shows_futures, without_futures};
 
 /// Most lanes for which each body shows its lane's number.
 const MAX_NUMBERED: usize = 9;
@@ -56,6 +56,7 @@ pub fn compose(studio: &Studio, size: [f32; 2]) -> Picture {
     let ghosts: Vec<Ghost> = (0..bodies).map(|index| Ghost::new(&moment, index)).collect();
     let entrants: Vec<&Entrant> = studio.race().entrants().iter().collect();
     match (studio.mode(), studio.display().arrangement) {
+        _ if !moment.bands.is_empty() => in_bands(&mut picture, &moment, stage, &ghosts[0]),
         (Mode::Solo, _) | (Mode::Race, Arrangement::Overlay) => {
             overlay(&mut picture, &moment, stage, &ghosts, &entrants);
         }
@@ -124,6 +125,36 @@ fn overlay(
         let camera = moment.camera(cells[0], 0, &views[0]);
         chart::ruler(picture, strip, &camera, moment.palette);
     }
+}
+
+/// Draws some lanes in bands, one below the other, each with its own scale and its code.
+fn in_bands(picture: &mut Picture, moment: &DrawContext<'_>, stage: Rect, ghost: &Ghost) {
+    let lanes = moment.bands.iter().filter_map(|&entry| moment.studio.deck.lane_of(entry));
+    let lanes: Vec<&Entrant> = lanes.collect();
+    let mut cards = Vec::new();
+    for (entrant, band) in lanes.iter().zip(bands(stage, &vec![1.0; lanes.len()])) {
+        let Band { ruler, cell, card } = Band::of(band);
+        let view = &on_one_stage(moment, vec![ghost.view], entrant)[0];
+        let camera = moment.camera(cell, 0, view);
+        if view.recorded_m().is_some() {
+            chart::quay(picture, &camera, moment.palette);
+        }
+        let lanes = std::slice::from_ref(entrant);
+        let mut body = BodyCell { moment, index: 0, ghost, view, camera, lanes, front: entrant };
+        if body.has_outgrown() {
+            body.camera = universe::with_short_paper(&camera);
+        }
+        body.draw(picture);
+        bands::head(picture, cell, moment, entrant, ghost.swing_m);
+        match ruler {
+            Some(strip) => chart::ruler(picture, strip, &camera, moment.palette),
+            None => scale_marks::scale_bar(picture, &camera, moment.palette),
+        }
+        if let Some(room) = card {
+            cards.extend(Card::of(moment, entrant, room));
+        }
+    }
+    bands::draw(picture, moment, stage, &cards);
 }
 
 /// Draws each lane in its own cells.
@@ -207,8 +238,13 @@ impl BodyCell<'_> {
             universe::landmarks(picture, (camera, self.room()), moment, (index, self.front));
         }
         let mut ends = Vec::new();
-        if self.shows_futures() && self.lanes.iter().any(|lane| lane.id == studio.selected().id) {
-            ends = futures::draw(picture, moment, (camera, self.room()), framing, index);
+        let has_selected = self.lanes.iter().any(|lane| lane.id == studio.selected().id);
+        if self.shows_futures() && (has_selected || self.is_banded()) {
+            let futures = match self.is_banded() {
+                true => future_of_lane(&studio.deck, self.front, index),
+                false => futures(&studio.deck, index),
+            };
+            ends = futures::draw(picture, moment, (camera, self.room()), framing, futures);
             if without_futures(&studio.deck, index).is_none() {
                 captions::futures(picture, camera.rect, studio, palette);
             }
@@ -219,7 +255,6 @@ impl BodyCell<'_> {
         let mut numbered = None;
         let mut rivals: Vec<(Outline, LaneStyle)> = Vec::new();
         let mut lost: Vec<Lost> = Vec::new();
-        let mut near: Vec<LoupeLane<'_>> = Vec::new();
         let mut cell = Cell {
             rect: camera.rect,
             lane: self.front.id,
@@ -254,7 +289,6 @@ impl BodyCell<'_> {
                 }
                 continue;
             }
-            near.push(LoupeLane::of(moment, lane, index, colour));
             if !is_front {
                 seen.draw_behind(picture, style);
                 flagged.push(flag);
@@ -324,12 +358,7 @@ impl BodyCell<'_> {
             apex::draw(picture, camera, (moment, !lost.is_empty()), self.front, index);
         }
         if shows_ghost {
-            let half = row_width(flagged.len()) / 2.0 + camera.block;
-            let [x, y] = camera.points(ghost.outline.at);
-            let busy = Rect { min: [x - half, y - 2.0 * lift], max: [x + half, y + half] };
-            let reach_m = ghost.view.reach_m.max_element();
-            loupe::draw(picture, moment, camera, (&near, reach_m), (room, busy));
-            if studio.mode() == Mode::Solo && index == 0 {
+            if (studio.mode() == Mode::Solo || self.is_banded()) && index == 0 {
                 let bead = ghost.outline.marks.iter().find_map(|mark| match mark {
                     Mark::Disc { radius, .. } => Some(camera.size(*radius)),
                     _ => None,
@@ -379,9 +408,14 @@ impl BodyCell<'_> {
         lane.id == self.front.id
     }
 
+    /// Whether each lane has a band of its own.
+    fn is_banded(&self) -> bool {
+        !self.moment.bands.is_empty()
+    }
+
     /// Whether the body has outgrown the stage, so that landmarks show its scale.
     fn has_outgrown(&self) -> bool {
-        self.moment.studio.mode() == Mode::Solo
+        (self.moment.studio.mode() == Mode::Solo || self.is_banded())
             && self.view.zoomed_as == self.index
             && !self.shows_futures()
             && universe::is_shown(self.moment, self.view, &self.camera)

@@ -97,11 +97,6 @@ pub(super) fn flags(
     }
 }
 
-/// Width of a row of flags over one place, in points.
-pub(super) fn row_width(count: usize) -> f32 {
-    (FLAG + GAP) * count.min(MANY) as f32
-}
-
 /// Pushes two flags apart if they overlap in one row.
 fn push_apart(
     places: &mut [[f32; 2]],

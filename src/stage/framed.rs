@@ -130,7 +130,8 @@ impl BodyView {
     /// Makes room for all of a lane's motion; with reduced motion, in steps. Where futures are shown, the exact one has
     /// room. It is the same at every tick rate, so that the view rests while a person drags the rate.
     fn outgrown(mut self, moment: &DrawContext<'_>, lane: &Entrant, body: usize) -> Self {
-        let future = shows_futures(moment.studio).then(|| exact_future(&moment.studio.deck, body));
+        let future =
+            shows_futures(moment.studio).then(|| exact_future(&moment.studio.deck, lane, body));
         let future = future.flatten().map_or(Vec::new(), |future| future.moments);
         let ahead_m = |centre_m: DVec2| {
             let places = future.iter().map(|moment| (moment.at - centre_m).abs());

@@ -8,7 +8,6 @@ use super::{Align, Picture, Rect, captions, flags};
 use crate::look::Framing;
 use crate::look::palette::fade;
 use crate::measure::{FutureCurve, FutureMoment};
-use crate::studio::futures;
 
 /// Half the width of a thread, and of the exact one, in points.
 const THREAD: f32 = 1.7;
@@ -42,11 +41,10 @@ pub(super) fn draw(
     moment: &DrawContext<'_>,
     (camera, clip): (&Camera, Rect),
     framing: Framing,
-    body: usize,
+    mut futures: Vec<FutureCurve>,
 ) -> Vec<End> {
     let palette = moment.palette;
     let mut ends: Vec<End> = Vec::new();
-    let mut futures = futures(&moment.studio.deck, body);
     // The truth comes last, over the others, and below it the first method.
     let methods = futures.len().saturating_sub(1);
     futures[..methods].reverse();
@@ -147,7 +145,7 @@ mod tests {
     use super::*;
     use crate::scene::Scene;
     use crate::stage::compose;
-    use crate::studio::{Studio, ViewCommand};
+    use crate::studio::{Studio, ViewCommand, futures};
 
     const NUMBERS: [&str; 9] = ["1", "2", "3", "4", "5", "6", "7", "8", "9"];
 

@@ -4,6 +4,7 @@
 //! Everything in a [`Picture`] is finite and within [`FAR`] of the stage, for any state of the lanes.
 
 mod apex;
+mod bands;
 mod body;
 mod breakpoints;
 mod captions;
@@ -18,7 +19,6 @@ mod grasp;
 mod hull;
 mod layout;
 mod loop_stage;
-mod loupe;
 mod mass;
 mod moment;
 mod outgrown;
@@ -171,6 +171,8 @@ pub struct Label {
     pub colour: Rgba,
     /// Whether it is semibold.
     pub is_strong: bool,
+    /// Whether all letters are equally wide, as in code.
+    pub is_code: bool,
     /// Colour of the halo that separates it from the shapes below.
     pub halo: Rgba,
     /// The text.
@@ -180,7 +182,7 @@ pub struct Label {
 impl Label {
     /// Text of normal weight without a halo.
     fn new(at: [f32; 2], align: Align, size: f32, colour: Rgba, text: String) -> Self {
-        Self { at, align, size, colour, is_strong: false, halo: [0; 4], text }
+        Self { at, align, size, colour, is_strong: false, is_code: false, halo: [0; 4], text }
     }
 
     /// The same label in semibold.

@@ -20,6 +20,8 @@ pub(super) struct DrawContext<'a> {
     pub(super) t: f64,
     /// Duration of a chart recorder's trail (s).
     pub(super) paper_s: f64,
+    /// Menu indices of the lanes with a band of their own.
+    pub(super) bands: Vec<MenuIndex>,
 }
 
 impl<'a> DrawContext<'a> {
@@ -28,6 +30,7 @@ impl<'a> DrawContext<'a> {
             studio,
             palette: studio.display().theme.palette(),
             t: shown_s(&studio.deck, &studio.viewer),
+            bands: studio.bands(),
             paper_s: match studio.scene().checks.is_empty() {
                 true => (PAPER * studio.scene().seconds).min(MAX_PAPER_S),
                 // The length of a recording is arbitrary.

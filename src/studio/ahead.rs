@@ -6,6 +6,7 @@ use super::viewer::Viewer;
 use crate::look::{Framing, Look};
 use crate::measure;
 use crate::measure::{FutureCurve, OneStep};
+use crate::run::race::Entrant;
 use crate::scene::LaneSpec;
 use crate::sim::stability::Tick;
 
@@ -60,16 +61,29 @@ pub fn without_futures(deck: &Deck, body: usize) -> Option<&'static str> {
 /// Returns the next second of the body with this index in the scene, from its state in the selected lane, under each
 /// method. The truth comes last. There is none if the body has halted, or has too many coordinates.
 pub fn futures(deck: &Deck, body: usize) -> Vec<FutureCurve> {
-    futures_under(deck, body, &deck.entries()[..deck.offered()])
+    futures_under(deck, deck.selected(), body, &deck.entries()[..deck.offered()])
 }
 
-/// Like [`futures`], in truth alone.
-pub fn exact_future(deck: &Deck, body: usize) -> Option<FutureCurve> {
-    futures_under(deck, body, &[]).pop()
+/// Like [`futures`], from the state in this lane, under its own method and in truth.
+pub fn future_of_lane(deck: &Deck, lane: &Entrant, body: usize) -> Vec<FutureCurve> {
+    let mut futures = futures_under(deck, lane, body, &[lane.spec]);
+    let own = futures.iter_mut().filter_map(|future| future.entry.as_mut());
+    own.for_each(|entry| *entry = deck.entry(lane));
+    futures
 }
 
-fn futures_under(deck: &Deck, body: usize, methods: &[LaneSpec]) -> Vec<FutureCurve> {
-    let of = &deck.selected().lane.bodies()[body];
+/// Like [`futures`], in truth alone, from the state in this lane.
+pub fn exact_future(deck: &Deck, lane: &Entrant, body: usize) -> Option<FutureCurve> {
+    futures_under(deck, lane, body, &[]).pop()
+}
+
+fn futures_under(
+    deck: &Deck,
+    lane: &Entrant,
+    body: usize,
+    methods: &[LaneSpec],
+) -> Vec<FutureCurve> {
+    let of = &lane.lane.bodies()[body];
     let held = deck.held().filter(|held| held.body == body);
     let held = held.map(|held| (&*held.q, &*held.v));
     let plotted = deck.past().coordinate(deck.race(), body).1;

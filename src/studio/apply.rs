@@ -1,6 +1,7 @@
 //! Passes each command to the part of the studio that executes it.
 
 use super::Studio;
+use super::book_figure::{figure_of_digit, open_figure};
 use super::command::{
     Command, RunCommand, SCALE_LADDER, StageCommand, USUAL_SCALE_PERCENT, ViewCommand,
 };
@@ -11,6 +12,7 @@ use super::escaping::escape;
 use super::guiding::{go_to_stop, go_to_stop_beside, look_at_goal, toggle_guide};
 use super::joint::joint_code;
 use super::looping::{carry_out_in_loop_lab, change_loop_lab, open_loop_lab, refuse_in_loop_lab};
+use super::my_lines::{read_lines, run_lines};
 use super::opening::described_spring;
 use super::restarting::plot_coordinate;
 use super::viewer::{Dialog, Viewer};
@@ -48,6 +50,12 @@ impl Studio {
     }
 
     pub(super) fn carry_out(&mut self, command: Command) -> Option<DriverRequest> {
+        if let (Command::Stage(StageCommand::Pick(entry)), Some(Dialog::Figures)) =
+            (&command, &self.viewer.dialog)
+        {
+            let figure = figure_of_digit(entry + 1)?;
+            return self.carry_out_on_view(ViewCommand::OpenFigure(figure));
+        }
         if self.loop_lab().is_some() && !matches!(command, Command::View(_) | Command::Ask(_)) {
             self.viewer.notice = None;
         }
@@ -145,6 +153,19 @@ impl Studio {
                 self.viewer.dialog = Some(Dialog::Spring { tick_hz });
             }
             ViewCommand::CloseComparison => _ = self.deck.close_comparison(),
+            ViewCommand::AskForLines => {
+                let text = self.viewer.preferences.my_lines.clone();
+                read_lines(&mut self.viewer, text);
+            }
+            ViewCommand::TypeLines(text) => read_lines(&mut self.viewer, text),
+            ViewCommand::RunLines => run_lines(self),
+            ViewCommand::ToggleFigures => {
+                let is_open = self.viewer.dialog == Some(Dialog::Figures);
+                self.viewer.dialog = (!is_open).then_some(Dialog::Figures);
+            }
+            ViewCommand::OpenFigure(index) => {
+                open_figure(&mut self.deck, &mut self.viewer, index);
+            }
             ViewCommand::CloseDialog => self.viewer.dialog = None,
             ViewCommand::ToggleGuide => toggle_guide(&mut self.deck, &mut self.viewer),
             ViewCommand::GoToStop(index) => go_to_stop(&mut self.deck, &mut self.viewer, index),

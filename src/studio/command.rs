@@ -156,12 +156,22 @@ pub enum ViewCommand {
     TypePath(String),
     /// Opens a dialog with the numbers of a custom spring.
     AskForSpring,
+    /// Opens a dialog for a person's own lines.
+    AskForLines,
+    /// Sets the lines of the dialog.
+    TypeLines(String),
+    /// Runs the lines of the dialog.
+    RunLines,
     /// Sets the numbers of the spring in the dialog.
     DescribeSpring(MySpring),
     /// Sets the tick rate (Hz) for the spring of the dialog.
     SpringTickHz(TickRate),
     /// Ends the comparison with a recording.
     CloseComparison,
+    /// Opens or closes the list of the chapter's figures.
+    ToggleFigures,
+    /// Opens the scene of this figure of [`BOOK_FIGURES`](super::BOOK_FIGURES), in the book's view.
+    OpenFigure(usize),
     /// Closes the open dialog.
     CloseDialog,
     /// Puts the instruments, the table and the timeline around the stage, or lets the stage fill the window.

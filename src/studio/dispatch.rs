@@ -4,6 +4,7 @@ use super::acting::{
     act, menu_index, next_impact, pick, pick_beside, seek, set_lane, step_by, tell_of_the_future,
     toggle_equal_cost,
 };
+use super::bands::{bands, toggle_band};
 use super::command::{RunCommand, SPEED_LADDER, StageCommand, TICK_LADDER};
 use super::deck::Deck;
 use super::findings::select_best;
@@ -67,7 +68,11 @@ pub(super) fn carry_out_on_stage(deck: &mut Deck, viewer: &mut Viewer, command: 
                 pick(deck, viewer, entry);
             }
         }
-        StageCommand::Pick(entry) => pick(deck, viewer, entry),
+        StageCommand::Pick(entry) if bands(deck, viewer).is_empty() => pick(deck, viewer, entry),
+        StageCommand::Pick(entry) => {
+            let selected = toggle_band(deck, viewer, entry);
+            pick(deck, viewer, selected);
+        }
         StageCommand::MethodBeside(step) => pick_beside(deck, viewer, step),
         StageCommand::TickHz(tick_hz) => act(deck, viewer, Action::TickHz(tick_hz)),
         StageCommand::TickRate(step) => {
@@ -88,6 +93,7 @@ pub(super) fn carry_out_on_stage(deck: &mut Deck, viewer: &mut Viewer, command: 
         }
         StageCommand::Restart => {
             viewer.view.zoom_pans.clear();
+            viewer.view.bands = None;
             // A hint suggests the next step, and the old run is a click away on the timeline.
             if restart_keeping_run(deck, viewer) && hint(deck, viewer, false).is_none() {
                 viewer.set_notice("restarted: Ctrl Z brings the run back");

@@ -107,6 +107,9 @@ pub struct View {
     /// Ranges to which the person has zoomed and panned the axes of plots, by the names of the axes. An axis without a
     /// range is fitted.
     pub plot_ranges: BTreeMap<String, [f64; 2]>,
+    /// Menu indices of the methods whose [bands](super::Studio::bands) the person has chosen, or `None` for the first
+    /// ones.
+    pub bands: Option<Vec<MenuIndex>>,
     /// Zoom and pan of each body, by its index in the scene. A body beyond the end of the list is fitted.
     pub zoom_pans: Vec<ZoomPan>,
 }

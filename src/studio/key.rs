@@ -135,7 +135,7 @@ pub fn digit_of(index: usize) -> usize {
 
 /// Every key and its command.
 pub static KEYS: &[Binding] = keys! {
-    once "1 … 9, 0" "solo: this method takes over at once; race, loop lab: select that lane":
+    once "1 … 9, 0" "solo: this method takes over at once; race, loop lab: select that lane; bands: show its band or take it away":
         Digit(1) => Stage(StageCommand::Pick(0)), Digit(2) => Stage(StageCommand::Pick(1)),
         Digit(3) => Stage(StageCommand::Pick(2)), Digit(4) => Stage(StageCommand::Pick(3)),
         Digit(5) => Stage(StageCommand::Pick(4)), Digit(6) => Stage(StageCommand::Pick(5)),
@@ -181,10 +181,14 @@ pub static KEYS: &[Binding] = keys! {
         ShiftSign('o') => View(ViewCommand::AskForRun);
     once "S" "a spring of your own: its numbers, the recommended method, and its code":
         Sign('s') => View(ViewCommand::AskForSpring);
+    once "Shift S" "my lines: type or paste a rule or a method, and watch it":
+        ShiftSign('s') => View(ViewCommand::AskForLines);
     once "F" "a fan of futures: the next second under each method, a dot a tick":
         Sign('f') => View(ViewCommand::ToggleFutures);
     once "G" "exact ghost on / off":
         Sign('g') => View(ViewCommand::ToggleGhost);
+    once "Shift G" "list of the book's figures 7-2 to 7-8: a digit opens one":
+        ShiftSign('g') => View(ViewCommand::ToggleFigures);
     once "I" "drawing between ticks: raw / extrapolated / linear / Hermite / monotone Hermite":
         Sign('i') => Run(RunCommand::NextInterpolation);
     once "L" "loop lab: one motion under every game loop":

@@ -22,6 +22,8 @@ use looping::title_of_loops;
 mod acting;
 mod ahead;
 mod apply;
+mod bands;
+mod book_figure;
 mod clouding;
 mod command;
 mod compared;
@@ -40,6 +42,7 @@ mod instrument;
 mod joint;
 mod key;
 mod looping;
+mod my_lines;
 mod my_spring;
 mod notice;
 mod notices;
@@ -58,7 +61,11 @@ mod work;
 mod zoom_pan;
 
 pub use crate::measure::{FutureCurve, FutureMoment, OneStep, Slope};
-pub use ahead::{exact_future, futures, one_step, orbit, shows_futures, without_futures};
+pub use ahead::{
+    exact_future, future_of_lane, futures, one_step, orbit, shows_futures, without_futures,
+};
+pub use bands::lines_of;
+pub use book_figure::{BOOK_FIGURES, BookFigure};
 pub use clouding::{accept_cloud, cloud_refusal, cloud_request, complete_clouds, shown_cloud};
 pub use command::{
     Command, RunCommand, SCALE_LADDER, SPEED_LADDER, StageCommand, TICK_LADDER, ViewCommand,
@@ -81,6 +88,7 @@ pub use looping::{
     accept_loop, loop_lab_refusal, loop_request, open_loop_lab_on, open_own_loop, open_traces,
     run_loops, runs_beside,
 };
+pub use my_lines::ReadLines;
 pub use my_spring::MySpring;
 pub use notice::Notice;
 pub use opening::{
@@ -136,7 +144,9 @@ impl Studio {
 
     fn starting_with(next: StartSettings) -> Self {
         let scene_list = SceneList::of(&next.opened);
-        Self::of_deck(Deck::new(scene_list, Run::starting_with(next)))
+        let mut studio = Self::of_deck(Deck::new(scene_list, Run::starting_with(next)));
+        studio.viewer.preferences.display.measure &= !studio.scene().opens_in_bands;
+        studio
     }
 
     fn of_deck(deck: Deck) -> Self {

@@ -1,17 +1,20 @@
 //! A custom spring, and the scene that is made from its numbers.
 
-use std::f64::consts::TAU;
+use std::f64::consts::{PI, TAU};
 
 use crate::measure::{Adviser, Criterion};
 use crate::scene::{LaneSpec, Scene, SceneErrors, USUAL_SECONDS, check_entered, tick_rate_line};
 use crate::sim::TickRate;
 use crate::sim::bodies::Range;
 use crate::sim::integrators::method;
-use crate::sim::number::round;
+use crate::sim::number::{round, significant};
 use crate::tools::port::Wish;
 
 /// Minimum number of periods in the scene of a slow spring.
 const MIN_PERIODS: f64 = 10.0;
+
+/// Distance from the new rest, relative to the step, within which a spring has settled.
+const SETTLED: f64 = 0.02;
 
 /// A mass on a damped spring.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -84,6 +87,71 @@ impl MySpring {
     /// Returns the damping ratio (1 is critical).
     pub fn damping_ratio(self) -> f64 {
         self.damping_n_s_per_m / (2.0 * libm::sqrt(self.stiffness_n_per_m * self.mass_kg))
+    }
+
+    /// Returns the overshoot of a step, which is the part of the way by which the mass goes beyond its new rest, from 0
+    /// to 1.
+    pub fn overshoot(self) -> f64 {
+        let ratio = self.damping_ratio();
+        if ratio >= 1.0 {
+            return 0.0;
+        }
+        libm::exp(-PI * ratio / libm::sqrt(1.0 - ratio * ratio))
+    }
+
+    /// Returns the time (s) after which the mass stays within 2 % of the step from its new rest after a step, or `None` if it
+    /// never does.
+    pub fn settles_s(self) -> Option<f64> {
+        let (omega, ratio) = (TAU * self.frequency_hz(), self.damping_ratio());
+        let decay = ratio * omega;
+        if decay <= 0.0 {
+            return None;
+        }
+        let split = omega * libm::sqrt((1.0 - ratio * ratio).abs());
+        let is_far = |t: f64| {
+            let place = if ratio < 1.0 {
+                let (cos, sin) = (libm::cos(split * t), libm::sin(split * t));
+                libm::exp(-decay * t) * (cos + decay / split * sin)
+            } else if ratio > 1.0 {
+                let [slow, fast] = [split - decay, -split - decay].map(|s| libm::exp(s * t));
+                (slow + fast + decay / split * (slow - fast)) / 2.0
+            } else {
+                libm::exp(-decay * t) * (1.0 + omega * t)
+            };
+            place.abs() > SETTLED
+        };
+        // Half a swing begins at a turn. In the last that begins too far, or without swings at once, the mass comes near.
+        let (mut far_s, mut near_s) = match ratio < 1.0 {
+            true => {
+                let turn_s = PI / split;
+                let last = libm::floor(-libm::log(SETTLED) / (decay * turn_s));
+                (last * turn_s, (last + 1.0) * turn_s)
+            }
+            false => {
+                let slowest = omega * omega / (decay + split);
+                (0.0, 20.0 / slowest)
+            }
+        };
+        for _ in 0..200 {
+            let middle_s = far_s.midpoint(near_s);
+            *(if is_far(middle_s) { &mut far_s } else { &mut near_s }) = middle_s;
+        }
+        Some(near_s)
+    }
+
+    /// Says how far the mass overshoots after a step, and when it has settled.
+    pub fn response_in_words(self) -> String {
+        let overshoot = match 100.0 * self.overshoot() {
+            percent if percent < 0.05 => "no overshoot".to_owned(),
+            percent => format!("overshoots {} %", significant(percent, 2)),
+        };
+        match self.settles_s() {
+            Some(settles_s) => {
+                let within = round(100.0 * SETTLED, 3);
+                format!("{overshoot}, within {within} % after {} s", significant(settles_s, 2))
+            }
+            None => format!("{overshoot}, never settles"),
+        }
     }
 
     /// Checks that a scene may have these numbers.
@@ -194,6 +262,32 @@ fn hint(best: LaneSpec, lanes: &[LaneSpec]) -> String {
 mod tests {
     use super::*;
     use crate::measure::{CRITERIA, recommended};
+
+    #[test]
+    fn overshoot_and_settling_are_those_of_a_fine_simulation() {
+        for ratio in [0.02, 0.1, 0.37, 0.7, 0.779, 0.95, 1.0, 1.0001, 1.3, 4.0] {
+            let spring = MySpring::of_frequency(2.0, 1.7, ratio);
+            let MySpring { mass_kg: m, stiffness_n_per_m: k, damping_n_s_per_m: c, .. } = spring;
+            let settles_s = spring.settles_s().expect("it is damped");
+            let (h, mut x, mut v, mut least, mut last_far_s) = (1e-5, 1.0_f64, 0.0, 1.0_f64, 0.0);
+            for tick in 0..(3.0 * settles_s / h) as u64 {
+                let a = |x: f64, v: f64| -(k * x + c * v) / m;
+                let middle = v + h / 2.0 * a(x, v);
+                let next = x + h * middle;
+                v += h * a(x + h / 2.0 * v, middle);
+                x = next;
+                least = least.min(x);
+                if x.abs() > SETTLED {
+                    last_far_s = h * (tick + 1) as f64;
+                }
+            }
+            assert!((spring.overshoot() - (-least).max(0.0)).abs() < 1e-6, "{ratio}: {least}");
+            assert!((settles_s - last_far_s).abs() < 1e-3, "{ratio}: {settles_s} {last_far_s}");
+        }
+        let undamped = MySpring::of_frequency(1.0, 1.0, 0.0);
+        assert_eq!((undamped.overshoot(), undamped.settles_s()), (1.0, None));
+        assert_eq!(undamped.response_in_words(), "overshoots 100 %, never settles");
+    }
 
     #[test]
     fn stiffness_and_frequency_describe_the_same_spring() {

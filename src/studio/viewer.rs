@@ -7,6 +7,7 @@ use super::deck::{Deck, LeftRun};
 use super::display::{Arrangement, Display, Motion, Pace, Splits, View};
 use super::guide::{Hints, Tour};
 use super::instrument::Instrument;
+use super::my_lines::{EXAMPLE, ReadLines};
 use super::my_spring::MySpring;
 use super::notice::Notice;
 use super::pace::LiveLoop;
@@ -34,6 +35,10 @@ pub enum Dialog {
         /// Why the scene at the typed path could not be opened, or `None` once the path has been edited.
         refused: Option<Vec<ShownError>>,
     },
+    /// A field for a person's own lines.
+    Lines(ReadLines),
+    /// The list of the chapter's figures, which digits open.
+    Figures,
     /// The errors of a scene file.
     Mistakes {
         /// Name of the file.
@@ -62,6 +67,7 @@ pub struct Preferences {
     pub(super) language: Language,
     pub(super) typed_path: String,
     pub(super) my_spring: MySpring,
+    pub(super) my_lines: String,
     /// Index of the stop at which the guide was last closed.
     pub(super) left_at: usize,
     /// Whether the driver keeps a recording of the run. If so, nothing is lost when the program ends.
@@ -131,6 +137,7 @@ impl Default for Preferences {
             language: Language::default(),
             typed_path: String::new(),
             my_spring: MySpring::default(),
+            my_lines: EXAMPLE.to_owned(),
             left_at: 0,
             is_recorded: false,
             is_full_screen: false,
@@ -238,6 +245,11 @@ impl Viewer {
     /// Returns the spring that was last described in the dialog.
     pub fn my_spring(&self) -> MySpring {
         self.preferences.my_spring
+    }
+
+    /// Returns the lines that were last typed in their dialog.
+    pub fn my_lines(&self) -> &str {
+        &self.preferences.my_lines
     }
 
     /// Whether a stop of the guide waits for a prediction. Until then, nothing on the screen may give away the answer.

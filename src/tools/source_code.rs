@@ -119,6 +119,36 @@ pub fn step_lines(method: &Method) -> Result<String, NoSourceCode> {
     Ok(header.collect::<String>() + "\n" + method.code)
 }
 
+/// Returns the statements of a method for a reader who sees what it does: without remarks, blank lines and `let`. Where
+/// the acceleration is taken once, at the start of the step, it is called `a`.
+pub fn bare_lines(method: &Method) -> Vec<String> {
+    let text = method.own_text().unwrap_or(method.code);
+    let is_said = |line: &&str| {
+        let first = line.split_whitespace().next().unwrap_or("#");
+        !first.starts_with('#') && !["takes", "several:", "held:"].contains(&first)
+    };
+    let bare = |line: &str| {
+        let indent = line.len() - line.trim_start().len();
+        let statement = line.trim();
+        let statement = statement.strip_prefix("let ").unwrap_or(statement);
+        format!("{}{statement}", " ".repeat(indent))
+    };
+    let mut lines: Vec<String> = text.lines().filter(is_said).map(bare).collect();
+    const AT_START: &str = "a(x, v)";
+    if lines.iter().map(|line| line.matches("a(").count()).sum::<usize>() == 1 {
+        match lines[0].strip_suffix(AT_START) {
+            Some(named) if named.ends_with(" = ") => {
+                let name = named.trim_end_matches(" = ").to_owned();
+                lines.remove(0);
+                lines.iter_mut().for_each(|line| *line = line.replace(&name, "a"));
+            }
+            Some(rest) => lines[0] = format!("{rest}a"),
+            None => {}
+        }
+    }
+    lines
+}
+
 /// Returns the function `rule` of generated lines, below a comment of these paragraphs.
 ///
 /// # Errors

@@ -209,9 +209,10 @@ pub(super) fn write(painter: &egui::Painter, stage: egui::Rect, label: &Label) {
         Align::Centre => egui::Align2::CENTER_CENTER,
         Align::Right => egui::Align2::RIGHT_CENTER,
     };
-    let font = match label.is_strong {
-        true => theme::strong_font(label.size),
-        false => egui::FontId::proportional(label.size),
+    let font = match label {
+        Label { is_code: true, .. } => egui::FontId::monospace(label.size),
+        Label { is_strong: true, .. } => theme::strong_font(label.size),
+        _ => egui::FontId::proportional(label.size),
     };
     let inked = colour(label.colour);
     let text = painter.layout_no_wrap(label.text.clone(), font, inked);

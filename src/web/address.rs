@@ -3,7 +3,7 @@
 use regatta::look::palette::Theme;
 use regatta::run::link::{Link, LinkError};
 use regatta::run::race::Mode;
-use regatta::scene::Scene;
+use regatta::scene::{OPENING, Scene};
 use regatta::studio::{Instrument, Studio, lineup, open_loop_lab_on, show_clouds_of_scene};
 
 /// A parsed address.
@@ -72,7 +72,11 @@ impl Address {
     /// # Errors
     /// A sentence about the part of the address that this page does not have.
     pub(crate) fn studio(&self) -> Result<Studio, String> {
-        let named = self.link.named().map_err(|error| error.to_string())?;
+        let is_bare = !self.link.names_anything() && self.loop_trace.is_none();
+        let opens = self.run.is_none() && self.instrument.is_none() && is_bare;
+        let opening = opens.then(|| Scene::built_in(OPENING)).flatten();
+        let mut named = self.link.named().map_err(|error| error.to_string())?;
+        named.scene = opening.unwrap_or(named.scene);
         let asked = if named.races { Mode::Race } else { Mode::Solo };
         let (mode, selected) = lineup(&named.scene, &named.methods, asked);
         let mut studio = Studio::opened(named.scene, selected, mode);
@@ -143,7 +147,9 @@ mod tests {
         let studio = opened("#scene=spring&loop=steady-144");
         let loops = studio.loop_lab().unwrap();
         assert_eq!(loops.traces()[loops.trace()].name(), "steady-144");
-        assert_eq!(opened("").scene().name, "harbour");
+        let studio = opened("#theme=light");
+        assert_eq!((studio.scene().name.as_str(), studio.bands()), ("two-springs", vec![0, 1]));
+        assert_eq!(opened("#instrument=energy").scene().name, "harbour");
         assert_eq!(opened("#scene=engines&method=engine-jolt").mode(), Mode::Solo);
     }
 

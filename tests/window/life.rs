@@ -12,15 +12,18 @@ use regatta::studio::ViewCommand;
 use crate::desk::{Desk, Display, until};
 use crate::widgets::paused_with;
 
+/// Title of a window that opens with nothing asked for.
+const OPENING: &str = "Regatta - two-springs - race: Explicit Euler - 60 Hz";
+
 /// Opens a window that is drawn by this backend, pauses it, and looks at it.
 fn opens(backend: &str, renderer: &str) {
     let arguments = format!("--renderer {renderer}");
     let desk = Desk::open_with(&arguments, &[("WGPU_BACKEND", backend)]);
-    desk.titled("Regatta - harbour - Explicit Euler - 60 Hz");
-    desk.press("1");
-    desk.titled("Regatta - harbour - Explicit Euler - 60 Hz");
+    desk.titled(OPENING);
+    desk.press("3");
+    desk.titled("Regatta - two-springs - race: Improved Euler - 60 Hz");
     desk.press("space");
-    desk.titled("Regatta - harbour - Explicit Euler - 60 Hz (paused)");
+    desk.titled("Regatta - two-springs - race: Improved Euler - 60 Hz (paused)");
     desk.shows(&desk.screenshot().1, 1);
     desk.quit();
 }
@@ -177,8 +180,8 @@ pub(crate) fn the_last_open_scene_reopens_unless_another_is_given() {
     let config = tempfile::tempdir().unwrap();
     let variables = [("XDG_CONFIG_HOME", config.path().to_str().unwrap())];
     let desk = Desk::open_with("", &variables);
-    desk.titled("Regatta - harbour - Explicit Euler - 60 Hz");
-    desk.press("n n");
+    desk.titled(OPENING);
+    desk.press("b b b");
     desk.titled("Regatta - ship - Explicit Euler - 2 Hz");
     desk.resize(900, 640);
     desk.press("space");
@@ -200,7 +203,7 @@ pub(crate) fn the_last_open_scene_reopens_unless_another_is_given() {
     }
     std::fs::write(&remembered, "theme = 5").unwrap();
     let mut desk = Desk::open_with("", &variables);
-    desk.titled("Regatta - harbour - Explicit Euler - 60 Hz");
+    desk.titled(OPENING);
     desk.program.says("window.toml is ignored: its theme cannot be understood").unwrap();
 }
 

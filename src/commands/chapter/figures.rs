@@ -5,7 +5,9 @@ use std::io;
 use super::{Moment, by_method, exactly, method_of, scene};
 use crate::commands::output::table::{RowFormat, RowWriter};
 use crate::look::palette::Theme;
+use crate::run::past::Quantity;
 use crate::scene::Scene;
+use crate::studio::{BOOK_FIGURES, BookFigure};
 use crate::view::{Axis, AxisScale, Chart, Figure, FigureCurve, Legend};
 
 pub(super) struct Diagram {
@@ -16,59 +18,26 @@ pub(super) struct Diagram {
 
 /// Returns all figures in their order.
 pub(super) fn all() -> Vec<Diagram> {
-    let (ship, spring) = (scene("ship"), scene("spring"));
-    let euler = |seconds| vec![exact(&ship, seconds), speed(&ship, "explicit-euler", seconds)];
-    let all = |seconds| {
-        let mut curves = vec![exact(&ship, seconds)];
-        let ids = ["explicit-euler", "improved-euler", "rk4"];
-        curves.extend(ids.map(|id| speed(&ship, id, seconds)));
-        curves
+    BOOK_FIGURES.iter().map(diagram).collect()
+}
+
+fn diagram(of: &BookFigure) -> Diagram {
+    let scene = scene(of.scene);
+    let (note, name, of_moment): (_, _, fn(&Moment) -> f64) = match of.quantity {
+        Quantity::Velocity => (ship_note(&scene), "speed (m/s)", |m| m.v),
+        Quantity::Position => (spring_note(&scene), "displacement (m)", |m| m.q),
     };
-    let of_ship = |title: &str, view, curves| {
-        figure(title, ship_note(&ship), ["time (s)", "speed (m/s)"], view, curves)
-    };
-    let of_spring = |title: &str, view, curves| {
-        figure(title, spring_note(&spring), ["time (s)", "displacement (m)"], view, curves)
-    };
-    let swings = |seconds, ids: &[&str]| {
-        let mut curves = vec![swing_exactly(&spring, seconds)];
-        curves.extend(ids.iter().map(|id| swing(&spring, id, seconds)));
-        curves
-    };
-    let zoom = [[6.46, 8.54], [9.4, 11.8]];
-    let diagram = |number, figure| Diagram { number, figure };
-    vec![
-        diagram(
-            "7-2",
-            of_ship("Figure 7-2: speed by Euler's method", [[0.0, 10.2], [0.0, 14.4]], euler(10.0)),
-        ),
-        diagram("7-3", of_ship("Figure 7-3: the same, from 6.5 to 8.5 s", zoom, euler(8.5))),
-        diagram(
-            "7-4",
-            of_ship("Figure 7-4: in time it converges", [[0.0, 61.0], [0.0, 22.0]], euler(60.0)),
-        ),
-        diagram(
-            "7-5",
-            of_spring(
-                "Figure 7-5: a spring grows without end under explicit Euler",
-                [[0.0, 6.1], [-8.4, 8.4]],
-                swings(6.0, &["explicit-euler"]),
-            ),
-        ),
-        diagram("7-6", of_ship("Figure 7-6: three methods", [[0.0, 10.2], [0.0, 14.4]], all(10.0))),
-        diagram(
-            "7-7",
-            of_ship("Figure 7-7: only Euler's can be told from the exact curve", zoom, all(8.5)),
-        ),
-        diagram(
-            "7-8",
-            of_spring(
-                "Figure 7-8: the same spring under improved Euler and Runge-Kutta",
-                [[0.0, 6.1], [-1.6, 1.6]],
-                swings(6.0, &["improved-euler", "rk4"]),
-            ),
-        ),
-    ]
+    let point = |m: &Moment| [m.t, of_moment(m)];
+    let exact = exactly(&scene, of.seconds, SMOOTH_HZ).iter().map(point).collect();
+    // A short run of the ship has a dot at every step.
+    let has_dots = of.quantity == Quantity::Velocity && of.seconds <= 20.0;
+    let dots = if has_dots { 2.6 } else { 0.0 };
+    let stepped =
+        of.methods.iter().map(|id| stepped(id, dots, &by_method(&scene, id, of.seconds), point));
+    let curves = std::iter::once(truth(exact)).chain(stepped).collect();
+    let title = format!("Figure {}: {}", of.number, of.title);
+    let figure = figure(&title, note, ["time (s)", name], of.view, curves);
+    Diagram { number: of.number, figure }
 }
 
 fn figure(
@@ -104,14 +73,6 @@ pub(super) fn csv(figure: &Figure) -> io::Result<Vec<u8>> {
 /// Points per second of an exact curve. They are more than the eye resolves.
 const SMOOTH_HZ: u32 = 100;
 
-fn exact(ship: &Scene, seconds: f64) -> FigureCurve {
-    truth(exactly(ship, seconds, SMOOTH_HZ).iter().map(|m| [m.t, m.v]).collect())
-}
-
-fn swing_exactly(spring: &Scene, seconds: f64) -> FigureCurve {
-    truth(exactly(spring, seconds, SMOOTH_HZ).iter().map(|m| [m.t, m.q]).collect())
-}
-
 fn truth(points: Vec<[f64; 2]>) -> FigureCurve {
     let dash = [1.0, 0.0];
     FigureCurve {
@@ -121,16 +82,6 @@ fn truth(points: Vec<[f64; 2]>) -> FigureCurve {
         dots: 0.0,
         points,
     }
-}
-
-/// Returns the curve of the speed under this method. A run of at most 20 s has a dot at every step.
-fn speed(ship: &Scene, id: &str, seconds: f64) -> FigureCurve {
-    let dots = if seconds > 20.0 { 0.0 } else { 2.6 };
-    stepped(id, dots, &by_method(ship, id, seconds), |m| [m.t, m.v])
-}
-
-fn swing(spring: &Scene, id: &str, seconds: f64) -> FigureCurve {
-    stepped(id, 0.0, &by_method(spring, id, seconds), |m| [m.t, m.q])
 }
 
 fn stepped(

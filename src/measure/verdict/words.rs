@@ -318,6 +318,28 @@ impl Verdict {
         already.into_iter().chain([self.line(is_named), word]).collect()
     }
 
+    /// Describes a swing, whose exact one has this half width, as an eye sees it: `twice as wide every 2.1 s`. Anything
+    /// else has its usual words.
+    pub fn for_the_eye(&self, exact: f64, unit: &str) -> String {
+        let LongTerm { doubles_in_s, measure, .. } = self.long_term;
+        let stays = self.comparison().filter(|found| found.widths.is_none());
+        match (self.outcome(), measure, doubles_in_s, stays) {
+            (Outcome::Grows, Measure::Swing, Some(time), _) => {
+                format!("twice as wide every {}", brief_duration(time))
+            }
+            (
+                Outcome::Rounding | Outcome::Accurate | Outcome::LooksRight | Outcome::Bounded,
+                Measure::Swing,
+                _,
+                Some(found),
+            ) => {
+                let width = round(exact * found.width.unwrap_or(1.0), 2);
+                format!("stays ±{width} {unit}").trim_end().to_owned()
+            }
+            _ => self.line(false),
+        }
+    }
+
     /// Describes the wrong width with which a growing swing begins, with the moment: `2.0 × too wide at 3.0 s`.
     fn already(&self) -> Option<String> {
         let found = self.comparison().filter(|_| self.outcome() > Outcome::Bounded)?;

@@ -51,6 +51,7 @@ fn labels_are_written_on_the_stage() {
         size: 20.0,
         colour: [255; 4],
         is_strong: false,
+        is_code: false,
         halo: [0; 4],
         text: "HHHH".to_owned(),
     };

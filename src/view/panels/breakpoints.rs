@@ -33,8 +33,10 @@ pub(super) const LANES: f32 = 240.0;
 pub(super) const TIMELINE: f32 = 420.0;
 pub(super) const TIMES_OF_TIMELINE: f32 = 560.0;
 
-/// Minimum width and height of a stage that shows the scale of tick rates.
-pub(super) const RATE_SCALE: [f32; 2] = [320.0, 280.0];
+/// Minimum width and height of a window that shows the scale of tick rates below the stage, and the height from
+/// which on the scale has numbers.
+pub(super) const RATE_SCALE: [f32; 2] = [320.0, 300.0];
+pub(super) const NUMBERS_OF_RATE_SCALE: f32 = 400.0;
 
 /// Minimum width and height of a stage that shows the button to fit its view.
 pub(super) const FIT: [f32; 2] = [160.0, 110.0];

@@ -95,7 +95,8 @@ mod tests {
             let focused = window.context.memory(|memory| memory.focused()).unwrap();
             middles.push(window.context.read_response(focused).unwrap().rect.center());
         }
-        assert!(middles[0].x < 60.0 && middles[0].y < 600.0, "the scale of the rate: {middles:?}");
+        let scale = middles[0];
+        assert!(scale.x == 640.0 && (590.0..640.0).contains(&scale.y), "the rate: {middles:?}");
         assert!(middles[1].x > 1200.0 && middles[1].y < 600.0, "the edge: {middles:?}");
         let chips = &middles[2..7];
         let are_in_row =

@@ -85,6 +85,8 @@ fn key_hints(studio: &Studio) -> [KeyHint; 2] {
         hint("L", "leave the lab", Command::Loop(LoopCommand::ToggleLab))
     } else if studio.deck.lost_at().is_some() {
         hint("W", "watch again", Command::Run(RunCommand::WatchAgain))
+    } else if !studio.bands().is_empty() {
+        hint("Shift G", "figures", Command::View(ViewCommand::ToggleFigures))
     } else if !studio.display().measure {
         hint("T", "measure", Command::View(ViewCommand::ToggleMeasure))
     } else {

@@ -11,6 +11,7 @@ mod advice;
 mod annotations;
 mod breakpoints;
 mod cost;
+mod figures;
 mod focus;
 mod footer;
 mod guide;
@@ -21,6 +22,7 @@ mod keycap;
 mod lanes;
 mod loops;
 mod methods;
+mod my_lines;
 mod my_spring;
 mod number_field;
 mod one_step;
@@ -113,6 +115,7 @@ pub(super) fn show(ui: &mut Ui, studio: &Studio) -> (Vec<Command>, Rect) {
     let has_methods = studio.loop_lab().is_none()
         && (studio.mode() == Mode::Solo || !studio.display().measure)
         && size.y >= breakpoints::LANES
+        && studio.bands().is_empty()
         && !(studio.display().measure && studio.display().enlarged);
     let mut methods = None;
     if has_methods {
@@ -121,6 +124,11 @@ pub(super) fn show(ui: &mut Ui, studio: &Studio) -> (Vec<Command>, Rect) {
         let height = methods::height(ui, studio, room, size);
         let panel = egui::Panel::bottom("methods").exact_size(height).frame(frame);
         methods = Some(panel.show(ui, reserve).inner);
+    }
+    if let Some(height) = rate_scale::height(studio, size) {
+        let frame = Frame::new().fill(palette(ui).panel);
+        let panel = egui::Panel::bottom("tick rate").exact_size(height).frame(frame);
+        panel.show(ui, |ui| rate_scale::show(ui, studio, &mut commands));
     }
     if studio.display().measure {
         pointed = round_the_stage(ui, studio, size, &mut commands);
@@ -139,9 +147,6 @@ pub(super) fn show(ui: &mut Ui, studio: &Studio) -> (Vec<Command>, Rect) {
             egui::CentralPanel::default_margins()
                 .frame(frame)
                 .show(ui, |ui| instruments::show_alone(ui, studio, &mut commands));
-        }
-        if rate_scale::is_shown(studio, stage.size()) {
-            rate_scale::show(ui, studio, stage, &mut commands);
         }
         edge(ui, stage, &mut commands);
         if studio.display().enlarged {
@@ -175,6 +180,8 @@ pub(super) fn show(ui: &mut Ui, studio: &Studio) -> (Vec<Command>, Rect) {
             Dialog::Spring { tick_hz } => {
                 my_spring::show(ui, studio, *tick_hz, over, &mut commands)
             }
+            Dialog::Lines(read) => my_lines::show(ui, studio, read, over, &mut commands),
+            Dialog::Figures => figures::show(ui, over, &mut commands),
             Dialog::Path { refused, .. } => {
                 opening::path(ui, studio, refused.as_deref(), over, &mut commands)
             }

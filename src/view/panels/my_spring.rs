@@ -38,6 +38,8 @@ pub(super) fn show(
         for number in SpringField::motion_fields(spring) {
             line(ui, "", number, false, commands);
         }
+        let seen = spring.response_in_words();
+        ui.label(RichText::new(seen).color(palette(ui).dim));
         if let Some((dialect, port)) = show_dialect(ui, spring)
             && dialect.is_read()
         {

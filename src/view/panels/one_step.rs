@@ -275,7 +275,7 @@ fn direction(area: &PlotArea, slope: &Slope) -> Vec2 {
 
 /// Returns a place for a badge beside a point, clear of all other badges and of the states.
 fn badge_place(at: Pos2, rect: Rect, taken: &[Pos2]) -> Pos2 {
-    let around = (0..24).map(|i| {
+    let around = (0..48).map(|i| {
         let (turn, ring) = ((i % 8) as f32, (i / 8) as f32);
         let angle = (turn * 0.125 - 0.125) * std::f32::consts::TAU;
         at + Vec2::angled(angle) * (19.0 + 12.0 * ring)

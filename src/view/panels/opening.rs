@@ -95,7 +95,7 @@ pub(super) fn mistakes(
 
 /// Writes a report into this room, and scrolls it if it is larger. Messages wrap, but the lines of the file do not,
 /// because the marks below them would no longer match.
-fn report_within(ui: &mut Ui, report: &[ShownError], room: egui::Vec2) {
+pub(super) fn report_within(ui: &mut Ui, report: &[ShownError], room: egui::Vec2) {
     let room = room.max(egui::Vec2::ZERO);
     ScrollArea::both().max_width(room.x).max_height(room.y).show(ui, |ui| {
         for ShownError { message, quoted } in report {

@@ -93,7 +93,9 @@ fn scene_menu(ui: &mut Ui, studio: &Studio, width: f32, commands: &mut Vec<Comma
         ui.style_mut().wrap_mode = Some(TextWrapMode::Extend);
         for (name, command) in [
             ("My spring … (S)", ViewCommand::AskForSpring),
+            ("My lines … (Shift S)", ViewCommand::AskForLines),
             ("Compare with… (Shift O)", ViewCommand::AskForRun),
+            ("Figures of the book … (Shift G)", ViewCommand::ToggleFigures),
         ] {
             if ui.selectable_label(false, RichText::new(name).font(strong_font(TYPE))).clicked() {
                 commands.push(Command::View(command));

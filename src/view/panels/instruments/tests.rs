@@ -6,7 +6,7 @@ use super::error::{NO_ERROR, NOTHING_YET, capitalised};
 use super::*;
 use crate::measure::cloud::{CloudChoice, CloudWorker};
 use crate::scene::{Action, SCENES, Scene};
-use crate::studio::{RunCommand, StageCommand, complete_clouds};
+use crate::studio::{BOOK_FIGURES, RunCommand, StageCommand, ViewCommand, complete_clouds};
 use crate::view::chart::PlotArea;
 use crate::view::panels;
 use crate::view::testing::{TestWindow, button};
@@ -16,6 +16,18 @@ mod shown;
 /// Returns every text that is fully visible in a frame of this size, with its place.
 fn texts(studio: &Studio, size: Vec2) -> Vec<(Rect, String)> {
     TestWindow::new(size).panels(studio, Vec::new()).1.whole()
+}
+
+#[test]
+fn a_figure_of_the_book_has_ranges_of_the_axes_that_its_plot_has() {
+    for (index, figure) in BOOK_FIGURES.iter().enumerate() {
+        let mut studio = Studio::new(Scene::built_in("harbour").unwrap());
+        studio.apply(ViewCommand::OpenFigure(index));
+        let set = plot_set_of(&studio, Detail::Samples).expect("plots");
+        let names = set.plots[0].axis_names();
+        let shown = names.map(|name| studio.view().plot_ranges[&name]);
+        assert_eq!((shown, set.plots.len()), (figure.view, 1), "{}", figure.number);
+    }
 }
 
 fn is_number(text: &str) -> bool {
