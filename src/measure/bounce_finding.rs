@@ -21,6 +21,9 @@ pub struct BounceFinding {
     pub sinks_at_s: Option<f64>,
     /// The height in metres to which it still bounces at the end, where the truth rests.
     pub never_rests: Option<f64>,
+    /// Where no flight is long enough to compare, the largest difference of the height, in parts of the highest true
+    /// one, and its time (s).
+    pub gap: Option<(f64, f64)>,
     /// Whether a rule after the step met the wall at its ticks only, so that it had nothing to get wrong.
     pub is_luck: bool,
 }
@@ -29,7 +32,35 @@ impl BounceFinding {
     /// Returns the largest error of a height or a landing, in parts of the flight.
     pub fn error(&self) -> f64 {
         let height = self.height.map_or(0.0, |(_, part)| part.abs());
-        height.max(self.landing.map_or(0.0, |(_, part, _)| part.abs()))
+        let gap = self.gap.map_or(0.0, |(part, _)| part);
+        height.max(self.landing.map_or(0.0, |(_, part, _)| part.abs())).max(gap)
+    }
+
+    /// Whether nothing of the run could be compared.
+    pub(super) fn is_empty(&self) -> bool {
+        let has_end = self.sinks_at_s.is_some() || self.never_rests.is_some();
+        self.height.is_none() && self.landing.is_none() && self.gap.is_none() && !has_end
+    }
+
+    /// Adds the distance of a lane from the truth where its verdict begins, as the error of the present flight and of
+    /// the next.
+    pub(super) fn beside(mut self, offsets: [Option<f64>; 2]) -> Self {
+        let offsets = offsets.iter().zip(0..).filter_map(|(part, after)| Some((after, (*part)?)));
+        let worst = offsets.max_by(|(_, a): &(u64, f64), (_, b)| a.abs().total_cmp(&b.abs()));
+        if let Some((after, offset)) = worst {
+            let (after, own) = self.height.unwrap_or((after, 0.0));
+            let part = (1.0 + own) * (1.0 + offset) - 1.0;
+            self.height = Some((after, part));
+            self.drifts &= own.abs() > offset.abs();
+        }
+        self
+    }
+
+    /// Returns the same finding on a run in which the judged part begins at this time (s).
+    pub(super) fn starting_at(self, starts_at_s: f64) -> Self {
+        let later = |at_s: f64| at_s + starts_at_s;
+        let gap = self.gap.map(|(part, at_s)| (part, later(at_s)));
+        Self { sinks_at_s: self.sinks_at_s.map(later), gap, ..self }
     }
 
     pub(super) fn outcome(&self) -> Outcome {
@@ -52,6 +83,7 @@ impl BounceFinding {
             (_, Some((_, part)), ..) => ("height error", 100.0 * part, "%"),
             (_, _, Some(height), _) => ("height that stays", height, "m"),
             (.., Some((_, _, late_s))) => ("delay", late_s, "s"),
+            _ if self.gap.is_some() => ("largest error", 100.0 * self.error(), "%"),
             _ => ("height error", 0.0, "%"),
         }
     }
@@ -77,6 +109,10 @@ impl fmt::Display for BounceFinding {
             (.., Some((after, part, late_s))) if part.abs() > TOLERANCE => {
                 let way = if late_s > 0.0 { "late" } else { "early" };
                 write!(f, "lands {} ms {way} after {after}", significant(1e3 * late_s.abs(), 2))?;
+            }
+            _ if let Some((part, at_s)) = self.gap => {
+                let size = significant(100.0 * part, 2);
+                write!(f, "off by {size} % at {}", duration(at_s))?;
             }
             _ if self.error() < 1e-6 => f.write_str("bounces right")?,
             _ => write!(f, "bounces within {} %", significant(100.0 * self.error(), 2))?,

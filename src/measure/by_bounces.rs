@@ -15,8 +15,11 @@ const LEAST_TICKS: f64 = 10.0;
 /// Height in metres, and part of the highest flight, at and below which a ball lies.
 const LIES: f64 = 1e-4;
 
-/// Seconds below the floor at the end of the run after which a ball has sunk.
+/// Seconds below the floor after which a ball has sunk, and seconds for which a ball at rest lies, both at the end of
+/// the run. Then the part of a short run for both.
 const SUNK_S: f64 = 0.5;
+const AT_REST_S: f64 = 1.0;
+const AT_END: f64 = 0.2;
 
 /// Part of a tick's way within which a ball lands on a tick.
 const ON_TICK: f64 = 1e-9;
@@ -45,6 +48,8 @@ pub(super) async fn follow_bounces(
     let mut followed = truth.follow(spec.solver(), spec.substeps, tick_hz).with_max_work(max_work);
     let (mut run, mut seen) = (BounceRun::default(), Vec::new());
     let (mut below_since, mut highest, mut highest_last) = (None, 0.0_f64, 0.0_f64);
+    let mut heights = vec![followed.body.stepper.q()[0]];
+    let [sunk_s, rest_s] = [SUNK_S, AT_REST_S].map(|most| most.min(AT_END * until_s));
     let (mut seconds, mut evaluations) = (0.0, 0);
     let mut before = Bounces::default();
     let see = |body: &FollowedBody, tick: u64| {
@@ -52,7 +57,8 @@ pub(super) async fn follow_bounces(
         (seconds, evaluations) = (t, body.stepper.evaluations());
         let (y, speed) = (body.stepper.q()[0], body.stepper.v()[0].abs());
         highest = highest.max(y);
-        if t + 1.0 > until_s {
+        heights.push(y);
+        if t + rest_s > until_s {
             highest_last = highest_last.max(y);
         }
         below_since = if y < 0.0 { below_since.or(Some(t)) } else { None };
@@ -73,12 +79,32 @@ pub(super) async fn follow_bounces(
     let has_own_time = spec.impact.finds_the_time();
     found.compare(&*exact, &seen, h, if has_own_time { 0.0 } else { h });
     found.is_luck &= !has_own_time;
-    found.sinks_at_s = below_since.filter(|since| seconds - since >= SUNK_S);
-    let is_known = exact.advance(0.0, until_s - 1.0, 1).is_ok();
-    let rests = is_known && until_s > 1.0 && exact.q()[0] == 0.0 && exact.v()[0] == 0.0;
+    found.sinks_at_s = below_since.filter(|since| seconds - since >= sunk_s);
+    let is_cut = !truth.inputs.is_empty();
+    if found.height.is_none() && found.landing.is_none() && !is_cut {
+        found.gap = gap(&mut *truth.start(Solver::Truth), &heights, tick_hz);
+    }
+    let is_known = exact.advance(0.0, until_s - rest_s, 1).is_ok();
+    let rests = is_known && !is_cut && exact.q()[0] == 0.0 && exact.v()[0] == 0.0;
     let is_up = found.sinks_at_s.is_none() && highest_last > LIES * highest.max(1.0);
     found.never_rests = (rests && is_up).then_some(highest_last);
     run
+}
+
+/// Returns the largest difference of the heights at ticks from the exact ones, in parts of the highest exact one, and
+/// its time (s). `None` if the exact ones are not known.
+fn gap(exact: &mut dyn Stepper, heights: &[f64], tick_hz: TickRate) -> Option<(f64, f64)> {
+    let (mut worst, mut highest) = ((0.0, 0.0), exact.q()[0].abs());
+    for (tick, height) in (1..).zip(&heights[1..]) {
+        exact.advance(tick_hz.seconds(tick - 1), tick_hz.step_s(), 1).ok()?;
+        highest = exact.q()[0].abs().max(highest);
+        let apart = (height - exact.q()[0]).abs();
+        if apart > worst.0 {
+            worst = (apart, tick_hz.seconds(tick));
+        }
+    }
+    let part = if worst.0 == 0.0 { 0.0 } else { worst.0 / highest };
+    Some((part, worst.1))
 }
 
 /// Returns the duration of the true flight after this many impacts, in seconds.
@@ -103,6 +129,10 @@ impl BounceFinding {
                 && is_long(now.apex_after).is_some()
             {
                 heights.push((now.apex_after, apex / wanted - 1.0));
+            }
+            // Flights become shorter and shorter, so that none is long again.
+            if now.impacts > 2 && is_long(now.impacts - 2).is_none() {
+                break;
             }
             if now.impacts == impacts {
                 continue;

@@ -162,6 +162,16 @@ impl Judge {
         Verdict { evaluations, long_term, of_bodies: verdicts, ..worst }
     }
 
+    /// Returns the verdict without findings on bodies whose motion depends on the time of the run.
+    pub(super) fn without_driven(verdict: Verdict, is_driven: impl Fn(usize) -> bool) -> Verdict {
+        let mut of_bodies = verdict.of_bodies;
+        for of_body in of_bodies.iter_mut().filter(|of_body| is_driven(of_body.body)) {
+            of_body.finding = Finding::NotJudged(NotJudged::Driven);
+            of_body.long_term = LongTerm::default();
+        }
+        Self::of_all(of_bodies)
+    }
+
     async fn verdict_on_body(
         &self,
         body: usize,
@@ -268,6 +278,7 @@ impl Judge {
         let finding = match (run.failure, self.not_judged(tick_hz, run.is_too_much)) {
             (Some(failure), _) => Finding::Failed { failure, by_energy: None },
             (None, Some(why)) => Finding::NotJudged(why),
+            (None, None) if run.finding.is_empty() => Finding::NotJudged(NotJudged::NoFlight),
             (None, None) => Finding::Bounced(run.finding),
         };
         let verdict = self.verdict_with(body, finding, LongTerm::default());

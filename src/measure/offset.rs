@@ -8,7 +8,7 @@ use super::criterion::{FREQUENCY_TOLERANCE, TOLERANCE, VISIBLE};
 use super::judge::Judge;
 use super::truth::{BodyTruth, ticks};
 use super::verdict::{Comparison, Finding, SwingWidths, Verdict};
-use crate::sim::TickRate;
+use crate::sim::{Solver, TickRate};
 
 impl Verdict {
     /// Returns the verdict of `own`, the judge of the exact motion from a lane's state, as one beside the truth of
@@ -19,6 +19,13 @@ impl Verdict {
             let truths = [own, judge].map(|judge| judge.truth(verdict.body));
             let finding = match verdict.finding {
                 Finding::Compared(found) => Finding::Compared(beside(found, truths, tick_hz).await),
+                Finding::Bounced(found) => {
+                    let exact = truths.map(|truth| truth.start(Solver::Truth));
+                    let height = |of: usize, after| Some(exact[of].true_bounce(after)?[1]);
+                    let offset = |after| Some(height(0, after)? / height(1, after)? - 1.0);
+                    let offsets = [0, 1].map(|after| offset(after).filter(|it| it.is_finite()));
+                    Finding::Bounced(found.beside(offsets))
+                }
                 finding => finding,
             };
             of_bodies.push(Verdict { finding, ..verdict });

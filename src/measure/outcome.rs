@@ -89,7 +89,9 @@ impl Outcome {
                 "the swing is as wide as the true one within 5 %, its frequency right within 1 %; \
                  without a swing, within 5 % of the range"
             }
-            Outcome::NotJudged => "it takes too much work, or the scene is shorter than a tick",
+            Outcome::NotJudged => {
+                "it takes too much work, the scene is shorter than a tick, no flight of a ball ends before an input, or a clock drives it"
+            }
             Outcome::NoTruth => "the true motion is not known precisely enough",
             Outcome::Bounded => "it neither grows nor dies away, and looks wrong",
             Outcome::DiesAway => "the swing gets narrower, and in truth it does not",

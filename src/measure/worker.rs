@@ -361,6 +361,12 @@ impl AnalysisWorker {
             AnswerPart::JudgeOfLane(lane, judge) => self.of_lanes.push((lane, judge)),
             AnswerPart::Verdict(verdict) => {
                 let starts_at_s = self.request.by_hand.starts_at_s();
+                let bodies = &self.request.scene.bodies;
+                let is_driven = |body: usize| bodies[body].kind.is_driven(&bodies[body].values);
+                let verdict = match starts_at_s > 0.0 {
+                    true => Judge::without_driven(*verdict, is_driven),
+                    false => *verdict,
+                };
                 self.verdicts[self.judged] = Some(verdict.starting_at(starts_at_s));
                 self.judged += 1;
             }

@@ -92,6 +92,7 @@ pub struct Equations {
     is_linear: bool,
     angles: Vec<bool>,
     is_steered: [bool; 2],
+    reads_time: bool,
 }
 
 /// The slots of the first inputs.
@@ -126,6 +127,7 @@ impl Equations {
             is_linear: is_linear(&motion, text.inputs(), T, |input| moves.contains(&input)),
             angles: moves.clone().take(text.coordinates.len()).map(is_angle).collect(),
             is_steered: [motion.reads(THROTTLE), motion.reads(RUDDER)],
+            reads_time: motion.reads(T),
             text,
             motion,
             energy,
@@ -137,6 +139,11 @@ impl Equations {
     /// Returns the text.
     pub fn text(&self) -> &LawText {
         &self.text
+    }
+
+    /// Whether the accelerations depend on the time.
+    pub fn reads_time(&self) -> bool {
+        self.reads_time
     }
 
     /// Whether the motion depends on the throttle and on the rudder.

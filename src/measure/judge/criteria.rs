@@ -138,7 +138,9 @@ impl Judge {
         let run = follow_bounces(truth, spec, tick_hz, self.max_work).await;
         match run.failure {
             _ if run.is_too_much => Err(CriterionMiss::Unknown),
-            None if is_met(&run.finding) => Ok(run.evaluations as f64 / run.seconds),
+            None if !run.finding.is_empty() && is_met(&run.finding) => {
+                Ok(run.evaluations as f64 / run.seconds)
+            }
             _ => Err(CriterionMiss::Fails),
         }
     }

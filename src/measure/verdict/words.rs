@@ -71,6 +71,8 @@ impl fmt::Display for NotJudged {
         f.write_str(match self {
             NotJudged::TooMuchWork => "too much work",
             NotJudged::ShorterThanATick => "the scene is shorter than a tick",
+            NotJudged::NoFlight => "no flight before the first input",
+            NotJudged::Driven => "driven by the clock: only from the start",
         })
     }
 }
@@ -183,6 +185,7 @@ impl Verdict {
             |quantity, part, bound| VerdictNumber::part(quantity, part, format!("within {bound}"));
         match (self.outcome(), &self.finding) {
             (_, Finding::Bounced(found)) => {
+                let found = found.starting_at(self.starts_at_s);
                 let (quantity, value, unit) = found.number();
                 Some(VerdictNumber::new(quantity, value, unit, found.to_string()))
             }

@@ -3,6 +3,8 @@
 //! The true impacts under gravity are a geometric series, so that any of them is known without those before it. With
 //! drag each flight is solved in turn.
 
+use std::cell::Cell;
+
 use super::prelude::*;
 use crate::sim::impact::Wall;
 
@@ -53,8 +55,9 @@ const PARAMETERS: [Of; 7] = [
 /// √k of a soft wall, in radians per second, at 4.77 Hz.
 const SOFT: f64 = 30.0;
 
-/// The largest number of flights that a truth follows one by one; after them the ball rests.
-const MAX_FLIGHTS: u32 = 100_000;
+/// The largest number of flights that a truth follows one by one from one moment to the next; what comes after them is
+/// not known.
+const MAX_FLIGHTS: u32 = 20_000;
 
 /// A flight shorter than this, in seconds, ends the bouncing.
 const SHORTEST_FLIGHT_S: f64 = 1e-9;
@@ -78,6 +81,29 @@ pub struct Ball {
     pub kick: f64,
     /// Whether the walls are springs, as under the rule `penalty`.
     pub is_soft: bool,
+    /// A memory that saves work and changes nothing.
+    pub walk: Walk,
+}
+
+/// The last impact of a walk from flight to flight, so that the next moment need not begin at the first.
+#[derive(Clone, Debug, Default)]
+pub struct Walk(Cell<Flights>);
+
+impl PartialEq for Walk {
+    /// Balls that differ only in what they remember are equal.
+    fn eq(&self, _: &Self) -> bool {
+        true
+    }
+}
+
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+struct Flights {
+    /// The state and the numbers with which the walk began.
+    from: [f64; 5],
+    /// Seconds since then, and the rounding of their sum.
+    t: [f64; 2],
+    at: [f64; 2],
+    rests: bool,
 }
 
 impl Ball {
@@ -188,33 +214,40 @@ impl Ball {
         self.fly([0.0, power * e * v1], time.max(0.0))
     }
 
-    /// Returns the state `dt` (s) after `from` above a floor, flight by flight.
-    fn dragged(&self, mut from: [f64; 2], dt: f64) -> [f64; 2] {
-        let (mut left, mut lost) = (dt, 0.0);
+    /// Returns the state `dt` (s) after `from` above a floor, flight by flight, unless there are too many flights.
+    fn dragged(&self, from: [f64; 2], dt: f64) -> Option<[f64; 2]> {
+        let begun = [from[0], from[1], self.gravity, self.drag, self.restitution];
+        let mut walk = self.walk.0.get();
+        if walk.from != begun || dt < walk.t[0] {
+            walk = Flights { from: begun, at: from, ..Flights::default() };
+        }
+        let mut found = None;
         for _ in 0..MAX_FLIGHTS {
-            let flight = self.fall_s(from);
+            let left = (dt - walk.t[0]) - walk.t[1];
+            let flight = if walk.rests { f64::INFINITY } else { self.fall_s(walk.at) };
             if left < flight {
-                return self.fly(from, left);
-            }
-            let [_, v] = self.fly(from, flight);
-            // The rounding of each difference is carried along.
-            let next = left - (flight + lost);
-            lost = (next - left) + (flight + lost);
-            (left, from) = (next, [0.0, -self.restitution * v]);
-            if 2.0 * from[1] < self.gravity * SHORTEST_FLIGHT_S {
+                found = Some(if walk.rests { [0.0; 2] } else { self.fly(walk.at, left.max(0.0)) });
                 break;
             }
+            let up = -self.restitution * self.fly(walk.at, flight)[1];
+            // The rounding of each sum is carried along.
+            let [t, lost] = walk.t;
+            let next = t + (flight + lost);
+            walk.t = [next, (flight + lost) - (next - t)];
+            walk.at = [0.0, up];
+            walk.rests = 2.0 * up < self.gravity * SHORTEST_FLIGHT_S;
         }
-        [0.0; 2]
+        self.walk.0.set(walk);
+        found
     }
 
-    /// Returns the state `dt` (s) after `from` between two walls, without forces.
-    fn reflected(&self, [y, v]: [f64; 2], dt: f64) -> [f64; 2] {
+    /// Returns the state `dt` (s) after `from` between two walls, without forces, unless there are too many flights.
+    fn reflected(&self, [y, v]: [f64; 2], dt: f64) -> Option<[f64; 2]> {
         let (wide, e) = (self.ceiling, self.restitution);
         let to_wall = if v > 0.0 { wide - y } else { y };
         let speed = v.abs();
         if speed * dt < to_wall || speed == 0.0 {
-            return [y + v * dt, v];
+            return Some([y + v * dt, v]);
         }
         let way = |beyond: f64, is_up: bool, speed: f64| match is_up {
             true => [beyond, speed],
@@ -223,16 +256,30 @@ impl Ball {
         if e == 1.0 {
             let beyond = speed * dt - to_wall;
             let n = libm::floor(beyond / wide);
-            return way(beyond - n * wide, (v < 0.0) == (n % 2.0 == 0.0), speed);
+            return Some(way(beyond - n * wide, (v < 0.0) == (n % 2.0 == 0.0), speed));
         }
         let (mut left, mut speed, mut is_up) = (dt - to_wall / speed, e * speed, v < 0.0);
         for _ in 0..MAX_FLIGHTS {
             if speed * left < wide {
-                break;
+                return Some(way(speed * left, is_up, speed));
             }
             (left, speed, is_up) = (left - wide / speed, e * speed, !is_up);
         }
-        way((speed * left).min(wide), is_up, speed)
+        None
+    }
+
+    /// Returns the state `dt` (s) after `from`, unless too many flights lie between them.
+    fn after(&self, from: &State<f64>, dt: f64) -> Option<[f64; 2]> {
+        let highest = if self.ceiling > 0.0 { self.ceiling } else { f64::INFINITY };
+        let from = [from.q.clamp(0.0, highest), from.v];
+        let [y, v] = if self.ceiling > 0.0 {
+            self.reflected(from, dt)?
+        } else if self.drag > 0.0 {
+            self.dragged(from, dt)?
+        } else {
+            self.bounced(from, dt)
+        };
+        Some([y.clamp(0.0, highest), v])
     }
 }
 
@@ -305,14 +352,21 @@ impl Body for Ball {
         }
         if self.drag > 0.0 {
             let mut t = 0.0;
-            for _ in 0..impact.min(u64::from(MAX_FLIGHTS)) {
+            for _ in 0..impact {
                 let flight = self.fall_s(at);
+                if t > 0.0 && flight < SHORTEST_FLIGHT_S {
+                    return None;
+                }
                 t += flight;
                 at = [0.0, -e * self.fly(at, flight)[1]];
             }
             return Some([t, self.fly(at, up(at[1]))[0]]);
         }
         let [t1, v1] = self.first(at);
+        // A ball that lies on the floor meets it no more.
+        if v1 == 0.0 {
+            return None;
+        }
         let n = (impact - 1) as f64;
         let late = match e {
             1.0 => n * (2.0 * v1 / g),
@@ -326,19 +380,14 @@ impl Body for Ball {
 
     /// A state beyond a wall counts as one at the wall.
     fn exact_into(&self, _t: f64, dt: f64, from: &State<f64>, to: &mut State<f64>) {
-        let highest = if self.ceiling > 0.0 { self.ceiling } else { f64::INFINITY };
-        let from = [from.q.clamp(0.0, highest), from.v];
-        let [y, v] = if self.ceiling > 0.0 {
-            self.reflected(from, dt)
-        } else if self.drag > 0.0 {
-            self.dragged(from, dt)
-        } else {
-            self.bounced(from, dt)
-        };
-        *to = State { q: y.clamp(0.0, highest), v };
+        let [q, v] = self.after(from, dt).unwrap_or_default();
+        *to = State { q, v };
     }
 
     fn exact_error(&self, _t: f64, dt: f64, from: &State<f64>, _to: &State<f64>) -> [f64; 2] {
+        if self.after(from, dt).is_none() {
+            return [f64::INFINITY; 2];
+        }
         let fastest = from.v.abs() + (2.0 * self.gravity * from.q.max(0.0)).sqrt();
         let (late, rounding) = (8.0 * f64::EPSILON * dt, 8.0 * f64::EPSILON);
         let highest = from.q.abs() + fastest * fastest / (2.0 * self.gravity).max(1.0);
