@@ -1,5 +1,5 @@
-//! The lanes of a race in bands, one below the other, each with its lines of code. A scene asks for them, as the opening
-//! does; digits show a lane and take it away.
+//! The lanes of a race in bands, one below the other, each with its lines of code. A scene asks for them, as that of
+//! the opening does. Digits show a lane and take it away.
 
 use super::Studio;
 use super::deck::Deck;

@@ -88,7 +88,6 @@ pub use looping::{
     accept_loop, loop_lab_refusal, loop_request, open_loop_lab_on, open_own_loop, open_traces,
     run_loops, runs_beside,
 };
-pub use my_lines::ReadLines;
 pub use my_spring::MySpring;
 pub use notice::Notice;
 pub use opening::{
@@ -102,7 +101,7 @@ pub use saved_preferences::SavedPreferences;
 pub use scene_list::SceneList;
 pub use spring_field::SpringField;
 pub use step::Step;
-pub use viewer::{Dialog, Preferences, Viewer};
+pub use viewer::{Dialog, Preferences, ReadLines, Viewer};
 pub use work::{CurrentRequest, Found, Work};
 pub use zoom_pan::ZoomPan;
 

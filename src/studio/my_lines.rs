@@ -5,9 +5,9 @@ use std::path::Path;
 
 use super::Studio;
 use super::opening::{open_with, race_own_method};
-use super::viewer::{Dialog, Viewer};
+use super::viewer::{Dialog, ReadLines, Viewer};
 use crate::run::race::Mode;
-use crate::scene::{LaneSpec, SceneErrors, ShownError, is_rule};
+use crate::scene::{LaneSpec, SceneErrors, is_rule};
 use crate::tools::Rule;
 use crate::tools::rule::rule_scene;
 
@@ -15,19 +15,8 @@ use crate::tools::rule::rule_scene;
 const NAME: &str = "mine.step";
 /// Frames per second for which a rule is written.
 const FPS: u32 = 60;
-/// The lines of a person who has typed none yet.
-pub(super) const EXAMPLE: &str = "v = (v + (target - x) * 0.2) * 0.85\nx += v\n";
 
-/// A reading of a person's own lines.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct ReadLines {
-    /// The faults of the lines, as the command line would print them.
-    pub report: Vec<ShownError>,
-    /// Code that moves like the rule at any frame rate, in the language of the last copy, or `None` for a method.
-    pub code: Option<String>,
-}
-
-/// Reads the lines of the dialog anew.
+/// Reads the lines of the dialog after a change.
 pub(super) fn read_lines(viewer: &mut Viewer, text: String) {
     let mut read = ReadLines::default();
     if is_rule(text.as_bytes()) {
@@ -66,6 +55,7 @@ mod tests {
     use super::*;
     use crate::scene::Scene;
     use crate::studio::ViewCommand;
+    use crate::studio::viewer::EXAMPLE;
 
     fn typed(text: &str) -> Studio {
         let mut studio = Studio::new(Scene::built_in("spring").unwrap());

@@ -99,8 +99,8 @@ impl MySpring {
         libm::exp(-PI * ratio / libm::sqrt(1.0 - ratio * ratio))
     }
 
-    /// Returns the time (s) after which the mass stays within 2 % of the step from its new rest after a step, or `None` if it
-    /// never does.
+    /// Returns the time (s) after which the mass stays within 2 % of a step from its new rest, or `None` if it never
+    /// does.
     pub fn settles_s(self) -> Option<f64> {
         let (omega, ratio) = (TAU * self.frequency_hz(), self.damping_ratio());
         let decay = ratio * omega;
@@ -120,7 +120,7 @@ impl MySpring {
             };
             place.abs() > SETTLED
         };
-        // Half a swing begins at a turn. In the last that begins too far, or without swings at once, the mass comes near.
+        // The mass comes near in the last half swing that begins too far away, or without swings after the start.
         let (mut far_s, mut near_s) = match ratio < 1.0 {
             true => {
                 let turn_s = PI / split;

@@ -7,7 +7,6 @@ use super::deck::{Deck, LeftRun};
 use super::display::{Arrangement, Display, Motion, Pace, Splits, View};
 use super::guide::{Hints, Tour};
 use super::instrument::Instrument;
-use super::my_lines::{EXAMPLE, ReadLines};
 use super::my_spring::MySpring;
 use super::notice::Notice;
 use super::pace::LiveLoop;
@@ -19,6 +18,18 @@ use crate::run::race::{Interpolation, Mode};
 use crate::scene::{LaneSpec, Scene, ShownError};
 use crate::sim::TickRate;
 use crate::tools::source_code::Language;
+
+/// The lines of a person who has typed none yet.
+pub(super) const EXAMPLE: &str = "v = (v + (target - x) * 0.2) * 0.85\nx += v\n";
+
+/// A reading of a person's own lines.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct ReadLines {
+    /// The faults of the lines, as the command line would print them.
+    pub report: Vec<ShownError>,
+    /// Code that moves like the rule at any frame rate, in the language of the last copy, or `None` for a method.
+    pub code: Option<String>,
+}
 
 /// A dialog over the window.
 #[derive(Clone, Debug, PartialEq, Eq)]

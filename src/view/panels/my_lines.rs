@@ -1,9 +1,10 @@
 //! A field for a person's own lines, with the code that moves like them at any frame rate.
 
-use egui::{FontId, Id, Key, Label, Rect, RichText, ScrollArea, TextEdit, Ui, vec2};
+use egui::{FontId, Id, Key, Label, Rect, RichText, ScrollArea, Ui, vec2};
 
 use super::opening::report_within;
 use super::parts::dialog;
+use super::text_field::text_area;
 use crate::run::link::MAX_LETTERS;
 use crate::studio::{Command, ReadLines, Studio, ViewCommand};
 use crate::view::theme::palette;
@@ -31,8 +32,8 @@ pub(super) fn show(
         }
         let typed = studio.viewer.my_lines();
         let mut text = typed.to_owned();
-        let field = TextEdit::multiline(&mut text).id(id).char_limit(MAX_LETTERS);
-        let field = field.code_editor().desired_rows(ROWS).desired_width(width).show(ui);
+        let field = text_area(&mut text, id, MAX_LETTERS).desired_rows(ROWS);
+        let field = field.desired_width(width).show(ui);
         let about = "lines of a rule or of a method";
         field
             .response

@@ -13,6 +13,11 @@ pub(super) fn text_field(text: &mut String, id: Id, max: usize) -> TextEdit<'_> 
     TextEdit::singleline(text).id(id).char_limit(max)
 }
 
+/// Returns an editor for lines of code of at most `max` letters together.
+pub(super) fn text_area(text: &mut String, id: Id, max: usize) -> TextEdit<'_> {
+    TextEdit::multiline(text).id(id).char_limit(max).code_editor()
+}
+
 /// Selects the text from this character on.
 pub(super) fn select(ctx: &Context, id: Id, from: usize) {
     let mut state = TextEditState::load(ctx, id).unwrap_or_default();
