@@ -7,7 +7,7 @@ use clap::builder::{PossibleValue, TypedValueParser};
 #[cfg(feature = "view")]
 use crate::look::palette::Theme;
 use crate::loops::{ENGINES, POLICIES, PolicyCard, TRACES, TraceCard};
-use crate::measure::cloud::{CloudKind, CloudShape};
+use crate::measure::cloud::CloudShape;
 use crate::scene::nearest;
 use crate::sim::integrators::{Family, METHODS, Method};
 use crate::sim::{IMPACTS, Impact};
@@ -118,9 +118,6 @@ pub(super) const TRACE: Id<&TraceCard> = Id {
 
 pub(super) const INSTRUMENT: Id<Instrument> =
     Id::new("instrument", || Instrument::all().map(|it| (it.id(), it)).collect());
-
-pub(super) const CLOUD: Id<CloudKind> =
-    Id::new("cloud", || CloudKind::ALL.map(|kind| (kind.name().into(), kind)).into());
 
 pub(super) const SHAPE: Id<CloudShape> =
     Id::new("shape", || CloudShape::ALL.map(|shape| (shape.id().into(), shape)).into());

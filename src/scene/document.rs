@@ -20,7 +20,7 @@ use super::script::{self, SceneContext};
 use super::table::Table;
 use super::wanted::{Field, Wanted};
 use super::{
-    CloudKind, LaneSpec, MAX_LANES, MAX_SECONDS, MIN_SECONDS, Scene, USUAL_SECONDS, claim_horizon,
+    CloudShape, LaneSpec, MAX_LANES, MAX_SECONDS, MIN_SECONDS, Scene, USUAL_SECONDS, claim_horizon,
     syntax,
 };
 use crate::sim::bodies::{BODIES, Range};
@@ -132,11 +132,11 @@ pub(super) static TOP: [Key<Draft, Scene>; 11] = [
     Key {
         field: Field::optional(
             "clouds",
-            "opens it with clouds of many starts in place of the bodies: their shape, or their section",
+            "opens it with clouds of many starts, of this shape, in place of the bodies",
             Wanted::Clouds,
         ),
         read: |draft, top, field| draft.scene.clouds = read_clouds(top, field),
-        write: |scene| scene.clouds.map(|kind| quoted(kind.name())),
+        write: |scene| scene.clouds.map(|shape| quoted(shape.id())),
     },
     Key {
         field: OPENING_METHOD,
@@ -167,12 +167,12 @@ fn opening_method(scene: &Scene, is_plain: bool) -> Option<String> {
     Some(quoted(method.id))
 }
 
-/// Reads the kind of clouds that a scene opens with.
-fn read_clouds(top: &mut Table<'_>, field: &Field) -> Option<CloudKind> {
+/// Reads the shape of the clouds that a scene opens with.
+fn read_clouds(top: &mut Table<'_>, field: &Field) -> Option<CloudShape> {
     let written = top.text(field)?;
-    let found = CloudKind::named(&written);
+    let found = CloudShape::ALL.into_iter().find(|shape| shape.id() == written);
     if found.is_none() {
-        let names = CloudKind::ALL.map(CloudKind::name);
+        let names = CloudShape::ALL.map(CloudShape::id);
         let remedy = offer(nearest(&written, names.iter().map(|it| (*it, *it))), &names, '"');
         top.report_fault(top.span(field.key), format!("unknown clouds {written:?}"), remedy);
     }

@@ -47,7 +47,7 @@ pub(crate) use appearance::{Drawing, Preview};
 #[cfg(feature = "cli")]
 pub(crate) use clip::truncate;
 pub(crate) use clip::{clip, clip_list};
-pub use cloud_shape::{CloudKind, CloudShape};
+pub use cloud_shape::CloudShape;
 pub use custom::{Options, OptionsError};
 pub use edit::{EditError, check_entered, edited_values, entered_tick_rate};
 pub use errors::{MAX_SHOWN, SceneError, SceneErrors, ShownError};
@@ -136,8 +136,8 @@ pub struct Scene {
     pub equal_cost: bool,
     /// Whether the program opens the scene as a race rather than under one method.
     pub opens_as_race: bool,
-    /// The kind of the clouds of many starts with which the scene opens; `None` if it opens with the bodies.
-    pub clouds: Option<CloudKind>,
+    /// The shape of the clouds of many starts with which the scene opens; `None` if it opens with the bodies.
+    pub clouds: Option<CloudShape>,
     /// The bodies in the order of the file, 1 to [`MAX_BODIES`], each with a unique name.
     pub bodies: Vec<SceneBody>,
     /// The scripted commands by time. Commands with the same time keep the order of the file.

@@ -270,10 +270,10 @@ fn run_again(deck: &mut Deck, viewer: &mut Viewer, index: usize, tick: u64) {
 
 /// Shows the clouds with which the scene opens, if any, in place of the stage.
 pub fn show_clouds_of_scene(deck: &mut Deck, viewer: &mut Viewer) {
-    let Some(kind) = deck.scene().clouds else { return };
+    let Some(shape) = deck.scene().clouds else { return };
     let display = &mut viewer.preferences.display;
     (display.instrument, display.enlarged) = (Instrument::Cloud, true);
-    display.cloud.kind = kind;
+    display.cloud.shape = shape;
 }
 
 pub(super) fn open_beside(deck: &mut Deck, viewer: &mut Viewer, step: Step) {

@@ -7,10 +7,9 @@
 use std::sync::Arc;
 
 use super::request::{GRID, Request, cost};
-use super::section::SectionRun;
 use super::{
-    Cloud, CloudAxes, CloudBody, CloudBorder, CloudKind, CloudPicture, CloudRequest, CloudShape,
-    CloudStart, Density, FoundCloud, LaneCloud, NoCloud, ShownTicks,
+    Cloud, CloudAxes, CloudBody, CloudBorder, CloudPicture, CloudRequest, CloudShape, CloudStart,
+    Density, FoundCloud, LaneCloud, NoCloud, ShownTicks,
 };
 use crate::run::race::Race;
 use crate::scene::LaneSpec;
@@ -41,7 +40,7 @@ const SEEN: usize = 1_000;
 pub struct CloudWorker {
     request: Option<Arc<CloudRequest>>,
     /// The run of the last request.
-    run: Option<Result<CloudInProgress, NoCloud>>,
+    run: Option<Result<Box<CloudRun>, NoCloud>>,
     is_done: bool,
     /// Stride through the points, of which every n-th is stepped.
     stride: usize,
@@ -77,7 +76,7 @@ impl CloudWorker {
 
     /// Returns the stride to use from now on, when `new` replaces the request for the tick `old`.
     fn stride_for(&mut self, old: u64, new: &CloudRequest) -> usize {
-        let Some(Ok(CloudInProgress::Clouds(run))) = &self.run else { return self.stride };
+        let Some(Ok(run)) = &self.run else { return self.stride };
         if !new.in_time {
             self.looked = None;
             return 1;
@@ -103,14 +102,11 @@ impl CloudWorker {
     /// Steps some ticks towards the requested one, and returns the picture if it is due.
     pub fn work(&mut self) -> Option<FoundCloud> {
         let request = self.request.as_ref().filter(|_| !self.is_done)?;
-        let run = self.run.get_or_insert_with(|| CloudInProgress::new(request, self.stride));
+        let run = self
+            .run
+            .get_or_insert_with(|| CloudRun::of_request(request, self.stride).map(Box::new));
         let picture = match run {
-            Ok(CloudInProgress::Section(run)) => {
-                run.work();
-                self.is_done = run.is_done();
-                Ok(run.picture())
-            }
-            Ok(CloudInProgress::Clouds(run)) => {
+            Ok(run) => {
                 run.work(request.tick);
                 self.is_done = run.tick == request.tick;
                 let is_shown = self.is_done || run.tick.is_multiple_of(run.sampled_every);
@@ -145,40 +141,6 @@ fn initial_stride(request: &CloudRequest) -> usize {
     stride
 }
 
-/// A cloud or a section in progress.
-enum CloudInProgress {
-    Clouds(Box<CloudRun>),
-    Section(SectionRun),
-}
-
-impl CloudInProgress {
-    fn new(request: &CloudRequest, stride: usize) -> Result<Self, NoCloud> {
-        let &CloudRequest { ref scene, ref changes, body, ref lanes, tick_hz, choice, .. } =
-            request;
-        let scene = changes.applied_to(scene).of_one_body(body);
-        let mut race = Race::new(&scene, []).with_script(&scene.script);
-        race.catch_up(&mut ());
-        let request = Request {
-            of: CloudBody {
-                name: &scene.bodies[0].name,
-                kind: &scene.bodies[0].kind,
-                body: &*race.truth().bodies()[0].stepper,
-            },
-            lanes,
-            tick_hz,
-            seconds: scene.seconds,
-            t: changes.starts_at_s(),
-        };
-        match choice.kind {
-            CloudKind::Shape(shape) => {
-                let points = choice.points / stride;
-                CloudRun::new(request, shape, points).map(|run| Self::Clouds(Box::new(run)))
-            }
-            CloudKind::Section => SectionRun::new(request).map(Self::Section),
-        }
-    }
-}
-
 /// A cloud with its area at each sampled tick up to now.
 struct SampledCloud<C> {
     cloud: C,
@@ -201,6 +163,27 @@ struct CloudRun {
 }
 
 impl CloudRun {
+    /// Starts the clouds of a request, with one of `stride` points each.
+    fn of_request(request: &CloudRequest, stride: usize) -> Result<Self, NoCloud> {
+        let &CloudRequest { ref scene, ref changes, body, ref lanes, tick_hz, choice, .. } =
+            request;
+        let scene = changes.applied_to(scene).of_one_body(body);
+        let mut race = Race::new(&scene, []).with_script(&scene.script);
+        race.catch_up(&mut ());
+        let request = Request {
+            of: CloudBody {
+                name: &scene.bodies[0].name,
+                kind: &scene.bodies[0].kind,
+                body: &*race.truth().bodies()[0].stepper,
+            },
+            lanes,
+            tick_hz,
+            seconds: scene.seconds,
+            t: changes.starts_at_s(),
+        };
+        Self::new(request, choice.shape, choice.points / stride)
+    }
+
     fn new(request: Request<'_>, shape: CloudShape, points: usize) -> Result<Self, NoCloud> {
         let Request { of, lanes, tick_hz, seconds, t } = request;
         let about = CloudStart::about(of, shape, None)?;
@@ -287,7 +270,6 @@ impl CloudRun {
         CloudPicture {
             tick: self.tick,
             points: self.points,
-            section: None,
             view,
             exact: self.samples(&self.exact.areas, self.exact.cloud.area_ratio()),
             lanes: self.lanes.iter().map(lane).collect(),
