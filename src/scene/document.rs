@@ -202,11 +202,11 @@ fn at_top(key: &str) -> Option<&'static str> {
     TOP.iter().map(|it| it.field.key).find(|it| *it == key)
 }
 
-/// Reads the scene called `name`, and returns the scene with warnings about deprecated syntax.
+/// Reads the scene called `name`.
 ///
 /// # Errors
 /// Fails with all faults of the text, in no particular order.
-pub(super) fn read(name: &str, text: &str) -> Result<(Scene, Vec<SceneError>), Vec<SceneError>> {
+pub(super) fn read(name: &str, text: &str) -> Result<Scene, Vec<SceneError>> {
     let (document, errors) = DeTable::parse_recoverable(text);
     let mut errors = syntax::errors(text, errors);
     // After a duplicate key, the rest of the file can be read. After other syntax errors it cannot.
@@ -239,7 +239,6 @@ pub(super) fn read(name: &str, text: &str) -> Result<(Scene, Vec<SceneError>), V
         script: Vec::new(),
         checks: Vec::new(),
         own_methods: top.own().to_vec(),
-        outdated: None,
     };
     let mut draft = Draft { scene, listed: None, impact: Default::default() };
     Key::read_all(&TOP, &mut draft, &mut top);
@@ -254,8 +253,7 @@ pub(super) fn read(name: &str, text: &str) -> Result<(Scene, Vec<SceneError>), V
         top.add_faults_of(race);
     }
     let context = SceneContext { bodies: &bodies, lanes: &scene.lanes, tick_hz: scene.tick_hz };
-    let (script, outdated) = script::read(&context, &mut top);
-    scene.script = script;
+    scene.script = script::read(&context, &mut top);
     scene.checks = script::read_checks(&context, &mut top);
     errors.extend(top.finish());
     let may_mean_a_body = |error: &SceneError| error.fault.kind == FaultKind::NoTable;
@@ -270,7 +268,7 @@ pub(super) fn read(name: &str, text: &str) -> Result<(Scene, Vec<SceneError>), V
         return Err(errors);
     }
     scene.bodies = complete_bodies(bodies);
-    Ok((scene, outdated))
+    Ok(scene)
 }
 
 fn read_lanes(

@@ -145,8 +145,6 @@ pub struct Scene {
     /// States that a race of the scene must reproduce, in the order of the file. A scene with checks is a recording,
     /// and its file gives the script in ticks.
     pub checks: Vec<Check>,
-    /// Warnings about deprecated syntax in the file, with its replacement; `None` if there is none.
-    pub outdated: Option<Arc<SceneErrors>>,
 }
 
 /// A body of a scene.
@@ -238,12 +236,8 @@ impl Scene {
         // Some editors begin a file with a byte order mark, and none of them counts it as a column.
         let text = text.strip_prefix('\u{feff}').unwrap_or(text);
         let stem = Path::new(file).file_stem().and_then(|stem| stem.to_str());
-        let (mut scene, outdated) = document::read(stem.unwrap_or(file), text)
-            .map_err(|errors| SceneErrors::new(file, text, errors))?;
-        if !outdated.is_empty() {
-            scene.outdated = Some(SceneErrors::new(file, text, outdated).into());
-        }
-        Ok(scene)
+        document::read(stem.unwrap_or(file), text)
+            .map_err(|errors| SceneErrors::new(file, text, errors))
     }
 
     /// Returns for each command of the script its tick in a run at the scene's rate, and the tick's time in seconds.
