@@ -5,9 +5,7 @@ use egui::epaint::text::PlacedRow;
 use egui::{Pos2, Rect, Ui, Vec2, vec2};
 use rayon::prelude::*;
 
-use super::frame::write;
 use super::testing::{ShownText, TestWindow};
-use super::{panels, theme};
 use crate::look::palette::Theme;
 use crate::loops::loop_lab::LoopCommand;
 use crate::measure::cloud::{CloudChoice, CloudShape, CloudWorker};
@@ -20,6 +18,8 @@ use crate::studio::{
     SCALE_LADDER, StageCommand, Step, Studio, ViewCommand, complete_clouds, run_loops,
     unanswered_request,
 };
+use crate::view::frame::write;
+use crate::view::{panels, theme};
 
 /// Window sizes in points: the first is the minimum, and the last has four times the usual pixels.
 const SIZES: [Vec2; 4] =
