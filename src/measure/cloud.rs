@@ -19,7 +19,7 @@ mod request;
 mod running;
 
 pub use crate::scene::CloudShape;
-use axes::{CloudAxes, ShownTicks};
+use axes::CloudAxes;
 pub use border::CloudBorder;
 use course::{Course, Memory, Subject, copies_of};
 pub use density::{Density, MAX_LINE_PART, PlaneView};

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::{CloudBody, CloudShape, Density, NoCloud, PlaneView, USUAL_POINTS};
+use super::{CloudShape, Density, NoCloud, PlaneView, USUAL_POINTS};
 use crate::run::race::Interventions;
 use crate::scene::{LaneSpec, Scene};
 use crate::sim::TickRate;
@@ -51,19 +51,6 @@ pub struct CloudRequest {
     pub(crate) tick: u64,
     /// Whether the run plays in real time, so that the clouds have to keep up.
     pub(crate) in_time: bool,
-}
-
-/// A prepared request.
-#[derive(Clone, Copy)]
-pub(super) struct Request<'a> {
-    /// The body at the start.
-    pub(super) of: CloudBody<'a>,
-    pub(super) lanes: &'a [(usize, LaneSpec)],
-    pub(super) tick_hz: TickRate,
-    /// Length of the run in seconds.
-    pub(super) seconds: f64,
-    /// Time of the start in seconds.
-    pub(super) t: f64,
 }
 
 impl CloudRequest {

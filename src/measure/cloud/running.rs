@@ -6,10 +6,10 @@
 
 use std::sync::Arc;
 
-use super::request::{GRID, Request, cost};
+use super::request::{GRID, cost};
 use super::{
-    Cloud, CloudAxes, CloudBody, CloudBorder, CloudPicture, CloudRequest, CloudShape, CloudStart,
-    Density, FoundCloud, LaneCloud, NoCloud, ShownTicks,
+    Cloud, CloudAxes, CloudBody, CloudBorder, CloudPicture, CloudRequest, CloudStart, Density,
+    FoundCloud, LaneCloud, NoCloud,
 };
 use crate::run::race::Race;
 use crate::scene::LaneSpec;
@@ -19,9 +19,6 @@ use crate::sim::TickRate;
 const SAMPLES: u64 = 200;
 /// Enlargement of a studio's clouds, which would otherwise look small.
 const REACH: f64 = 2.0;
-
-/// Growth of the exact cloud up to which the axes show it. On larger axes, the initial cloud would be a speck.
-const SPREAD: f64 = 10.0;
 
 /// A run that is more seconds behind than this, and does not catch up soon, continues with a tenth of its points. Their
 /// number does not fall below the minimum.
@@ -102,9 +99,7 @@ impl CloudWorker {
     /// Steps some ticks towards the requested one, and returns the picture if it is due.
     pub fn work(&mut self) -> Option<FoundCloud> {
         let request = self.request.as_ref().filter(|_| !self.is_done)?;
-        let run = self
-            .run
-            .get_or_insert_with(|| CloudRun::of_request(request, self.stride).map(Box::new));
+        let run = self.run.get_or_insert_with(|| CloudRun::new(request, self.stride).map(Box::new));
         let picture = match run {
             Ok(run) => {
                 run.work(request.tick);
@@ -164,30 +159,21 @@ struct CloudRun {
 
 impl CloudRun {
     /// Starts the clouds of a request, with one of `stride` points each.
-    fn of_request(request: &CloudRequest, stride: usize) -> Result<Self, NoCloud> {
+    fn new(request: &CloudRequest, stride: usize) -> Result<Self, NoCloud> {
         let &CloudRequest { ref scene, ref changes, body, ref lanes, tick_hz, choice, .. } =
             request;
+        let points = choice.points / stride;
         let scene = changes.applied_to(scene).of_one_body(body);
         let mut race = Race::new(&scene, []).with_script(&scene.script);
         race.catch_up(&mut ());
-        let request = Request {
-            of: CloudBody {
-                name: &scene.bodies[0].name,
-                kind: &scene.bodies[0].kind,
-                body: &*race.truth().bodies()[0].stepper,
-            },
-            lanes,
-            tick_hz,
-            seconds: scene.seconds,
-            t: changes.starts_at_s(),
+        let of = CloudBody {
+            name: &scene.bodies[0].name,
+            kind: &scene.bodies[0].kind,
+            body: &*race.truth().bodies()[0].stepper,
         };
-        Self::new(request, choice.shape, choice.points / stride)
-    }
-
-    fn new(request: Request<'_>, shape: CloudShape, points: usize) -> Result<Self, NoCloud> {
-        let Request { of, lanes, tick_hz, seconds, t } = request;
-        let about = CloudStart::about(of, shape, None)?;
-        let start = CloudStart { t, reach: about.reach.map(|reach| REACH * reach), ..about };
+        let about = CloudStart::about(of, choice.shape, None)?;
+        let (t, reach) = (changes.starts_at_s(), about.reach.map(|reach| REACH * reach));
+        let start = CloudStart { t, reach, ..about };
         Cloud::find_room(points, lanes.iter().map(|(_, spec)| spec))?;
         let new = |(entry, spec): &(usize, LaneSpec)| {
             let cloud = Cloud::new(of, spec, start, points, tick_hz)?.rewindable();
@@ -195,11 +181,9 @@ impl CloudRun {
         };
         let runs = lanes.iter().map(new).collect::<Result<Vec<_>, NoCloud>>()?;
         let border = CloudBorder::exact(of, start, tick_hz)?.rewindable();
-        let ticks = |seconds: f64| ((seconds * f64::from(tick_hz)) as u64).max(1);
         let specs: Vec<LaneSpec> = lanes.iter().map(|(_, spec)| *spec).collect();
-        let long = ticks(seconds.min(ShownTicks::MAX_S));
-        let shown = ShownTicks { spread: SPREAD, ..long.into() };
-        let axes = CloudAxes::of_run(of, start, &specs, tick_hz, shown)?;
+        let axes = CloudAxes::of_run(of, start, &specs, tick_hz, scene.seconds)?;
+        let ticks = ((scene.seconds * f64::from(tick_hz)) as u64).max(1);
         let work: u64 = specs.iter().map(cost).sum();
         let mut run = Self {
             lanes: runs,
@@ -209,7 +193,7 @@ impl CloudRun {
             points,
             tick_hz,
             tick: 0,
-            sampled_every: ticks(seconds).div_ceil(SAMPLES),
+            sampled_every: ticks.div_ceil(SAMPLES),
             part: (WORK / (work * points as u64)).max(1),
         };
         run.sample();
