@@ -7,7 +7,7 @@ use super::captured;
 use super::error::Error;
 use super::manifest::FILE_NAME;
 use super::output::Input;
-use super::own_method::is_step;
+use super::own_file::is_step;
 
 use crate::loops::TraceCard;
 pub(super) use crate::regular_file::is_link;

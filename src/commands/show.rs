@@ -6,7 +6,7 @@ use super::error::Error;
 use super::help::flowing;
 use super::id::{Id, LANGUAGE, LOOP, METHOD, languages_by_other_names};
 use super::output::print;
-use super::own_method::OrStepFile;
+use super::own_file::{FRAMES, IdOrFile, STEP, load_loop, load_method};
 use super::terminal::print_status;
 use crate::loops::PolicyCard;
 use crate::sim::integrators::{METHODS, Method};
@@ -75,10 +75,12 @@ enum ShownItem {
 }
 
 /// Parser for the ids of `SHOWN_ITEM`, or for the path of a `.step` or `.loop` file.
-const ITEM_OR_FILE: OrStepFile<ShownItem> = OrStepFile {
+const ITEM_OR_FILE: IdOrFile<ShownItem> = IdOrFile {
     id: SHOWN_ITEM,
-    of: |method| ShownItem::Method { method, alias: None },
-    of_loop: Some(ShownItem::Loop),
+    files: &[
+        (STEP, |path| Ok(ShownItem::Method { method: load_method(path)?, alias: None })),
+        (FRAMES, |path| load_loop(path).map(ShownItem::Loop)),
+    ],
 };
 
 /// Parser for the id of a method, one of its other ids, or the id of a game loop.
