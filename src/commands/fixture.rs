@@ -4,7 +4,6 @@ use clap::{Args, ValueEnum};
 use serde_json::{Value, json};
 
 use super::error::Error;
-
 use super::experiment_args::{ExperimentArgs, TickArgs};
 use super::help::flowing;
 use super::output::{print, print_json};

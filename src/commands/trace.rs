@@ -6,7 +6,6 @@ use clap::Args;
 use serde_json::Value;
 
 use super::error::Error;
-
 use super::experiment_args::{ExperimentArgs, TickArgs};
 use super::help::flowing;
 use super::output::Output;
