@@ -14,7 +14,7 @@ use super::keys::{
     IMPACT, Key, METHOD, STEP_S, TICK_HZ, list, number, quoted, read_lane_spec, replace_if_read,
     step_s, tick_hz,
 };
-use super::nearest::{listed, nearest, offer};
+use super::nearest::listed;
 use super::own::{OWN, read_own};
 use super::script::{self, SceneContext};
 use super::table::Table;
@@ -135,7 +135,10 @@ pub(super) static TOP: [Key<Draft, Scene>; 11] = [
             "opens it with clouds of many starts, of this shape, in place of the bodies",
             Wanted::Clouds,
         ),
-        read: |draft, top, field| draft.scene.clouds = read_clouds(top, field),
+        read: |draft, top, field| {
+            let all = CloudShape::ALL.map(|shape| (shape.id(), shape));
+            draft.scene.clouds = top.named(field, |id| format!("unknown clouds {id:?}"), &all);
+        },
         write: |scene| scene.clouds.map(|shape| quoted(shape.id())),
     },
     Key {
@@ -165,18 +168,6 @@ pub(super) static TOP: [Key<Draft, Scene>; 11] = [
 fn opening_method(scene: &Scene, is_plain: bool) -> Option<String> {
     let method = scene.opening_method.filter(|_| scene.own_methods.is_empty() == is_plain)?;
     Some(quoted(method.id))
-}
-
-/// Reads the shape of the clouds that a scene opens with.
-fn read_clouds(top: &mut Table<'_>, field: &Field) -> Option<CloudShape> {
-    let written = top.text(field)?;
-    let found = CloudShape::ALL.into_iter().find(|shape| shape.id() == written);
-    if found.is_none() {
-        let names = CloudShape::ALL.map(CloudShape::id);
-        let remedy = offer(nearest(&written, names.iter().map(|it| (*it, *it))), &names, '"');
-        top.report_fault(top.span(field.key), format!("unknown clouds {written:?}"), remedy);
-    }
-    found
 }
 
 /// The keys of `[race]`.
@@ -248,10 +239,7 @@ pub(super) fn read(name: &str, text: &str) -> Result<Scene, Vec<SceneError>> {
     name_the_nameless(&mut bodies);
     scene.lanes = read_lanes(text, &bodies, by_name, impact, &mut top);
     check_opening_method(&scene, &mut top);
-    if let Some(mut race) = top.table(&RACE_TABLE) {
-        Key::read_all(&RACE, &mut scene, &mut race);
-        top.add_faults_of(race);
-    }
+    top.read_below(&RACE_TABLE, |race| Key::read_all(&RACE, &mut scene, race));
     let context = SceneContext { bodies: &bodies, lanes: &scene.lanes, tick_hz: scene.tick_hz };
     scene.script = script::read(&context, &mut top);
     scene.checks = script::read_checks(&context, &mut top);

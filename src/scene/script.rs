@@ -171,12 +171,7 @@ pub(super) static COMMAND_KEYS: [CommandKey; 12] = [
     ),
     command_key(
         Field::optional("set", "sets a parameter of a body", Wanted::Table("set")),
-        |context, row, field| {
-            let mut set = row.table(field)?;
-            let action = read_set(context, &mut set);
-            row.add_faults_of(set);
-            action
-        },
+        |context, row, field| row.read_below(field, |set| read_set(context, set))?,
         |scene, action| {
             let Action::Set { body, parameter, value } = action else { return None };
             let body = &scene.bodies[*body];
@@ -188,12 +183,7 @@ pub(super) static COMMAND_KEYS: [CommandKey; 12] = [
     ),
     command_key(
         Field::optional("place", "puts a body into a state", Wanted::Table("place")),
-        |context, row, field| {
-            let mut place = row.table(field)?;
-            let action = read_place(context, &mut place);
-            row.add_faults_of(place);
-            action
-        },
+        |context, row, field| row.read_below(field, |place| read_place(context, place))?,
         |scene, action| {
             let Action::Place { body, q, v } = action else { return None };
             let name = quoted(&scene.bodies[*body].name);
@@ -202,12 +192,7 @@ pub(super) static COMMAND_KEYS: [CommandKey; 12] = [
     ),
     command_key(
         Field::optional("push", "changes a body's velocities", Wanted::Table("push")),
-        |context, row, field| {
-            let mut push = row.table(field)?;
-            let action = read_push(context, &mut push);
-            row.add_faults_of(push);
-            action
-        },
+        |context, row, field| row.read_below(field, |push| read_push(context, push))?,
         |scene, action| {
             let Action::Push { body, by } = action else { return None };
             Some(pull(scene, *body, by, 1))
