@@ -86,7 +86,7 @@ pub fn run(
     }
     let SceneFiles { read, opened, keep } = files;
     if let Some((path, _)) = &opened {
-        list_as_file(&mut studio.deck, &mut studio.viewer, path);
+        list_as_file(&mut studio.deck, path);
     }
     let watch = FileWatch::new(read, opened, proxy.clone());
     studio.viewer.preferences.is_recorded = keep.is_some();

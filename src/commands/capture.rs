@@ -20,7 +20,7 @@ use super::{clip, movie, sheet, state_log};
 use crate::atomic_file::IfExists;
 use crate::look::palette::Theme;
 use crate::loops::TraceCard;
-use crate::measure::cloud::{CloudKind, CloudShape};
+use crate::measure::cloud::CloudShape;
 use crate::run::race::Mode;
 use crate::studio::{Instrument, loop_lab_refusal};
 use crate::view::RendererChoice;
@@ -115,12 +115,6 @@ pub(super) struct CaptureArgs {
     #[arg(hide_possible_values = true)]
     shape: Option<CloudShape>,
 
-    /// Show a Poincaré section in the instrument cloud
-    ///
-    /// States of many starts once per period of a drive, or at each tick without a drive.
-    #[arg(long, requires = "instrument", conflicts_with = "shape")]
-    section: bool,
-
     /// What draws: auto, gpu or cpu [default: cpu]
     ///
     /// The processor needs no driver, and draws the same frames on every machine, except for single pixels of letters.
@@ -166,13 +160,9 @@ const SHEET_COLUMNS: u32 = 6;
 const MAX_SIDE_PX: u32 = 8192;
 
 pub(super) fn run(args: &CaptureArgs) -> Result<(), Error> {
-    let cloud = match args.section {
-        true => Some(CloudKind::Section),
-        false => args.shape.map(CloudKind::Shape),
-    };
-    if cloud.is_some() && args.instrument != Some(Instrument::Cloud) {
+    if args.shape.is_some() && args.instrument != Some(Instrument::Cloud) {
         return Err(Error::mistake(
-            "--shape and --section need the instrument cloud; give --instrument cloud, or neither",
+            "--shape needs the instrument cloud; give --instrument cloud, or neither",
         ));
     }
     let format = PictureFormat::of(&args.out, args.format)?;
@@ -206,7 +196,7 @@ pub(super) fn run(args: &CaptureArgs) -> Result<(), Error> {
         scale: args.scale,
         panels: args.panels.unwrap_or(format.or_sheet(Shown::On, Shown::Off)) == Shown::On,
         instrument: args.instrument,
-        cloud,
+        cloud: args.shape,
         motion: true,
         theme: args.theme.unwrap_or_default(),
         mark_every: args

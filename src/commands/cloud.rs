@@ -38,7 +38,7 @@ method:
   body_steps_per_s  measured here and now
   hash              of all states, to the bit: the same for any number of threads
 
-`regatta capture --instrument cloud` draws it, and with --section a Poincaré section.
+`regatta capture --instrument cloud` draws it.
 
 Examples:
   regatta cloud --scene liouville

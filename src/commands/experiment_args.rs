@@ -5,10 +5,10 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 
 use super::error::Error;
-use super::experiment::{Experiment, PathOrName, scene_names};
+use super::experiment::{Experiment, PathOrName, scene_names, seconds};
 use super::id::IMPACT;
 use super::output::Input;
-use super::own_method::METHOD_OR_FILE;
+use super::own_file::METHOD_OR_FILE;
 use super::scene_file;
 use super::spring::SpringArgs;
 use super::tick_rate::TickRateArgs;
@@ -133,6 +133,22 @@ impl ExperimentArgs {
     pub(super) fn names_no_method(&self) -> bool {
         self.methods.is_empty()
     }
+}
+
+/// The options that choose ticks of a run.
+#[derive(Clone, Copy, Debug, Args)]
+pub(super) struct TickArgs {
+    /// Simulated seconds [default: the scene's]
+    ///
+    /// To the nearest tick.
+    #[arg(long, value_name = "s", value_parser = seconds)]
+    #[arg(allow_negative_numbers = true)]
+    pub(super) seconds: Option<f64>,
+
+    /// Write only the ticks that are multiples of N
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    #[arg(value_parser = clap::value_parser!(u64).range(1..=1_000_000_000))]
+    pub(super) every: u64,
 }
 
 /// Returns the long help of `--scene`: the scenes to start with, and the command that lists the others.

@@ -4,8 +4,7 @@ use clap::{Args, ValueEnum};
 use serde_json::{Value, json};
 
 use super::error::Error;
-use super::experiment;
-use super::experiment_args::ExperimentArgs;
+use super::experiment_args::{ExperimentArgs, TickArgs};
 use super::help::flowing;
 use super::output::{print, print_json};
 use super::terminal::print_status;
@@ -35,17 +34,8 @@ pub(super) struct FixtureArgs {
     #[command(flatten)]
     experiment: ExperimentArgs,
 
-    /// Simulated seconds [default: the scene's]
-    ///
-    /// To the nearest tick.
-    #[arg(long, value_name = "s", value_parser = experiment::seconds)]
-    #[arg(allow_negative_numbers = true)]
-    seconds: Option<f64>,
-
-    /// Write only the ticks that are multiples of N
-    #[arg(long, value_name = "N", default_value_t = 1)]
-    #[arg(value_parser = clap::value_parser!(u64).range(1..=1_000_000_000))]
-    every: u64,
+    #[command(flatten)]
+    ticks: TickArgs,
 
     /// What to write: pytest, gtest, rust or json
     #[arg(long = "as", alias = "format", value_name = "FORMAT", hide_possible_values = true)]
@@ -124,7 +114,7 @@ struct States {
 
 pub(super) fn run(args: &FixtureArgs) -> Result<(), Error> {
     let experiment = args.experiment.load(Mode::Solo)?;
-    let seconds = args.seconds.unwrap_or(experiment.scene.seconds);
+    let seconds = args.ticks.seconds.unwrap_or(experiment.scene.seconds);
     let mut studio = experiment.studio();
     let scene = Scene { seconds, ..studio.scene().clone() };
     let last = studio.race().nearest_tick(seconds);
@@ -174,7 +164,7 @@ fn note(states: &mut [States], studio: &Studio, args: &FixtureArgs) {
             continue;
         }
         states.reached.note(body);
-        if tick.is_multiple_of(args.every) {
+        if tick.is_multiple_of(args.ticks.every) {
             states.rows.push((tick, body.stepper.q().to_vec(), body.stepper.v().to_vec()));
         }
     }

@@ -18,8 +18,7 @@ use super::id::ENGINE;
 use super::interrupt::watch_for_interrupt;
 use super::output::table::{RowFormat, RowWriter};
 use super::output::{Destination, Input, Output, STDOUT, same_file_path};
-use super::own_loop::{LoopOrFile, setting};
-use super::own_method::METHOD_OR_FILE;
+use super::own_file::{LOOP_OR_FILE, METHOD_OR_FILE};
 use super::scene_file;
 use super::table_args::{TableArgs, taken_object};
 use super::tick_rate::TickRateArgs;
@@ -85,7 +84,7 @@ pub(super) struct LoopArgs {
     ///
     /// `regatta list policies` has them, and `regatta list engine-loops` those of engines. A file that ends in .loop
     /// is a loop of your own. Give the option again for each, to compare them.
-    #[arg(long = "policy", value_name = "ID|FILE", value_parser = LoopOrFile, hide_possible_values = true)]
+    #[arg(long = "policy", value_name = "ID|FILE", value_parser = LOOP_OR_FILE, hide_possible_values = true)]
     policies: Vec<&'static PolicyCard>,
 
     /// Compare all policies
@@ -470,6 +469,13 @@ fn excess(written: &str) -> Result<Excess, String> {
         "keep" => Ok(Excess::Keep),
         _ => Err("write drop or keep".into()),
     }
+}
+
+/// Reads a constant of a loop and its number, such as `max_ticks=4`.
+fn setting(written: &str) -> Result<(String, f64), String> {
+    let (name, value) =
+        written.split_once('=').ok_or("write a constant and its number, such as max_ticks=4")?;
+    Ok((name.trim().to_owned(), number_that(value, f64::is_finite, "a finite number")?))
 }
 
 /// Reads the treatment of long frames.

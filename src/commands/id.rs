@@ -1,13 +1,18 @@
 //! Ids on the command line. They are parsed, offered for shell completion, or refused with a suggestion.
 
 use std::ffi::OsStr;
+use std::path::Path;
 
+use annotate_snippets::Renderer;
 use clap::builder::{PossibleValue, TypedValueParser};
+use clap::error::ErrorKind;
+
+use super::error::Error;
 
 #[cfg(feature = "view")]
 use crate::look::palette::Theme;
 use crate::loops::{ENGINES, POLICIES, PolicyCard, TRACES, TraceCard};
-use crate::measure::cloud::{CloudKind, CloudShape};
+use crate::measure::cloud::CloudShape;
 use crate::scene::nearest;
 use crate::sim::integrators::{Family, METHODS, Method};
 use crate::sim::{IMPACTS, Impact};
@@ -26,11 +31,16 @@ pub(super) struct Id<T: 'static> {
     pub(super) all: fn() -> Vec<(String, T)>,
     /// Other spellings, each with its id, from which suggestions are made.
     pub(super) spellings: fn() -> Vec<(&'static str, &'static str)>,
+    /// Endings of the files that a person may write in place of an item, each with the function that loads one.
+    pub(super) files: &'static [Loader<T>],
 }
 
+/// An ending of files, and the function that loads a value from such a file.
+type Loader<T> = (&'static str, fn(&Path) -> Result<T, Error>);
+
 impl<T: Copy> Id<T> {
-    const fn new(thing: &'static str, all: fn() -> Vec<(String, T)>) -> Self {
-        Self { thing, lists: &[], all, spellings: Vec::new }
+    pub(super) const fn new(thing: &'static str, all: fn() -> Vec<(String, T)>) -> Self {
+        Self { thing, lists: &[], all, spellings: Vec::new, files: &[] }
     }
 
     /// Returns the value of the item with this `id`.
@@ -74,13 +84,28 @@ impl<T: Copy + Send + Sync + 'static> TypedValueParser for Id<T> {
         arg: Option<&clap::Arg>,
         value: &OsStr,
     ) -> Result<T, clap::Error> {
-        let ids = *self;
+        let (ids, path) = (*self, Path::new(value));
+        if let Some((_, load)) = self.files.iter().find(|(ending, _)| ends_in(path, ending)) {
+            return load(path).map_err(refusal);
+        }
         (move |id: &str| ids.find(id)).parse_ref(command, arg, value)
     }
 
     fn possible_values(&self) -> Option<Box<dyn Iterator<Item = PossibleValue> + '_>> {
         Some(Box::new((self.all)().into_iter().map(|(id, _)| PossibleValue::new(id))))
     }
+}
+
+/// Whether a file ends so, in letters of any case.
+pub(super) fn ends_in(path: &Path, ending: &str) -> bool {
+    path.extension().is_some_and(|found| found.eq_ignore_ascii_case(ending))
+}
+
+/// Returns the refusal of an argument for an error in its file.
+fn refusal(error: Error) -> clap::Error {
+    let report = error.report(&Renderer::plain());
+    let report = report.strip_prefix("error: ").unwrap_or(&report);
+    clap::Error::raw(ErrorKind::ValueValidation, format!("{report}\n"))
 }
 
 pub(super) const METHOD: Id<&Method> = Id {
@@ -119,9 +144,6 @@ pub(super) const TRACE: Id<&TraceCard> = Id {
 pub(super) const INSTRUMENT: Id<Instrument> =
     Id::new("instrument", || Instrument::all().map(|it| (it.id(), it)).collect());
 
-pub(super) const CLOUD: Id<CloudKind> =
-    Id::new("cloud", || CloudKind::ALL.map(|kind| (kind.name().into(), kind)).into());
-
 pub(super) const SHAPE: Id<CloudShape> =
     Id::new("shape", || CloudShape::ALL.map(|shape| (shape.id().into(), shape)).into());
 
@@ -140,10 +162,10 @@ pub(super) const FAMILY: Id<Family> =
 
 /// The languages of code, and C++, because a C++ compiler accepts the C code.
 pub(super) const LANGUAGE_OR_CPP: Id<Language> = Id {
-    thing: LANGUAGE.thing,
-    lists: &[],
-    all: || (LANGUAGE.all)().into_iter().chain([("cpp".into(), Language::C)]).collect(),
     spellings: languages_by_other_names,
+    ..Id::new(LANGUAGE.thing, || {
+        (LANGUAGE.all)().into_iter().chain([("cpp".into(), Language::C)]).collect()
+    })
 };
 
 pub(super) const LANGUAGE: Id<Language> =

@@ -160,18 +160,12 @@ fn engines() -> impl Iterator<Item = &'static Method> {
 }
 
 /// Parser for the id of an engine or user interface that has a spring, or for all of one kind.
-const TARGET: Id<Target> = Id {
-    thing: "engine or user interface with a spring",
-    lists: &[],
-    all: || {
-        let dialects = UI_SPRINGS.iter().map(|it| (it.id, it));
-        let dialects = dialects.map(|(id, it)| (id.into(), Target::UiSpring(it)));
-        let all = [("all".into(), Target::Engines), ("ui".into(), Target::UiSprings)];
-        let engines = engines().map(|it| (it.id.into(), Target::Engine(it)));
-        all.into_iter().chain(engines).chain(dialects).collect()
-    },
-    spellings: Vec::new,
-};
+const TARGET: Id<Target> = Id::new("engine or user interface with a spring", || {
+    let dialects = UI_SPRINGS.iter().map(|it| (it.id.into(), Target::UiSpring(it)));
+    let all = [("all".into(), Target::Engines), ("ui".into(), Target::UiSprings)];
+    let engines = engines().map(|it| (it.id.into(), Target::Engine(it)));
+    all.into_iter().chain(engines).chain(dialects).collect()
+});
 
 /// Ticks per second where none are given.
 const USUAL_HZ: f64 = 60.0;

@@ -7,8 +7,7 @@ use super::captured;
 use super::error::Error;
 use super::manifest::FILE_NAME;
 use super::output::Input;
-use super::own_method::is_step;
-use super::terminal::print_status;
+use super::own_file::is_step;
 
 use crate::loops::TraceCard;
 pub(super) use crate::regular_file::is_link;
@@ -41,8 +40,6 @@ pub(super) fn load(path: &Path) -> Result<(Scene, String), Error> {
     let bytes = read(path)?;
     let scene =
         Scene::from_bytes(&name_in_link(path).unwrap_or_else(|| name_in_messages(path)), &bytes)?;
-    let outdated = scene.outdated.iter().flat_map(|outdated| outdated.messages());
-    outdated.for_each(|message| print_status(&format!("warning: {message}")));
     Ok((scene, String::from_utf8_lossy(&bytes).into_owned()))
 }
 

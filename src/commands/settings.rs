@@ -2,11 +2,11 @@
 
 use super::experiment::Experiment;
 use super::frame_names::{MAX_FRAMES, frame_name};
-use super::id::{CLOUD, INSTRUMENT, TRACE};
+use super::id::{INSTRUMENT, SHAPE, TRACE};
 use super::manifest::{Drawing, Manifest, fingerprint};
 use super::schedule::{MAX_FPS, Schedule};
 use crate::look::palette::Theme;
-use crate::measure::cloud::{CloudChoice, CloudKind};
+use crate::measure::cloud::{CloudChoice, CloudShape};
 use crate::run::race::Mode;
 use crate::scene::{Check, Scene};
 use crate::sim::integrators::method;
@@ -25,8 +25,8 @@ pub(super) struct CaptureSettings {
     pub(super) panels: bool,
     /// Instrument in the panels, or `None` for the default one.
     pub(super) instrument: Option<Instrument>,
-    /// Kind of the clouds, or `None` for the default shape.
-    pub(super) cloud: Option<CloudKind>,
+    /// Shape of the clouds, or `None` for the default shape.
+    pub(super) cloud: Option<CloudShape>,
     /// Whether trails fade and the camera glides.
     pub(super) motion: bool,
     pub(super) theme: Theme,
@@ -53,8 +53,8 @@ impl CaptureSettings {
         if let Some(instrument) = self.instrument {
             studio.viewer.preferences.display.instrument = instrument;
         }
-        if let Some(kind) = self.cloud {
-            studio.apply(RunCommand::Cloud(CloudChoice { kind, ..studio.display().cloud }));
+        if let Some(shape) = self.cloud {
+            studio.apply(RunCommand::Cloud(CloudChoice { shape, ..studio.display().cloud }));
         }
         studio
     }
@@ -81,7 +81,7 @@ pub(super) fn drawing_for_manifest(experiment: &Experiment, capture: &CaptureSet
         scale: capture.scale.to_string().parse().expect("a number's own text"),
         panels: capture.panels,
         instrument: capture.instrument.map(Instrument::id),
-        cloud: capture.cloud.map(|kind| kind.name().to_owned()),
+        cloud: capture.cloud.map(|shape| shape.id().to_owned()),
         motion: capture.motion,
         theme: (capture.theme == Theme::Light).then(|| LIGHT.to_owned()),
         mark_every: capture.mark_every,
@@ -124,7 +124,7 @@ pub(super) fn from_manifest(manifest: &Manifest) -> Result<CapturedRun, String> 
         scale: drawing.scale as f32,
         panels: drawing.panels,
         instrument: drawing.instrument.as_deref().map(|id| INSTRUMENT.find(id)).transpose()?,
-        cloud: drawing.cloud.as_deref().map(|id| CLOUD.find(id)).transpose()?,
+        cloud: drawing.cloud.as_deref().map(|id| SHAPE.find(id)).transpose()?,
         motion: drawing.motion,
         theme: match drawing.theme.as_deref() {
             None => Theme::Dark,

@@ -6,7 +6,7 @@ use super::error::Error;
 use super::help::flowing;
 use super::id::{Id, LANGUAGE, LOOP, METHOD, languages_by_other_names};
 use super::output::print;
-use super::own_method::OrStepFile;
+use super::own_file::{FRAMES, STEP, load_loop, load_method};
 use super::terminal::print_status;
 use crate::loops::PolicyCard;
 use crate::sim::integrators::{METHODS, Method};
@@ -46,7 +46,7 @@ pub(super) struct ShowArgs {
     ///
     /// `regatta list methods` and `regatta list policies` have them. A file that ends in .step is a method of your own,
     /// one that ends in .loop a loop.
-    #[arg(value_name = "METHOD|POLICY|FILE", value_parser = ITEM_OR_FILE, hide_possible_values = true)]
+    #[arg(value_name = "METHOD|POLICY|FILE", value_parser = SHOWN_ITEM, hide_possible_values = true)]
     asked: ShownItem,
 
     /// The language: rust, c, cpp, csharp, gdscript, javascript, lua or step
@@ -74,14 +74,7 @@ enum ShownItem {
     Impact(&'static Impact),
 }
 
-/// Parser for the ids of `SHOWN_ITEM`, or for the path of a `.step` or `.loop` file.
-const ITEM_OR_FILE: OrStepFile<ShownItem> = OrStepFile {
-    id: SHOWN_ITEM,
-    of: |method| ShownItem::Method { method, alias: None },
-    of_loop: Some(ShownItem::Loop),
-};
-
-/// Parser for the id of a method, one of its other ids, or the id of a game loop.
+/// Parser for the id of a method, one of its other ids, the id of a game loop or of a rule, or a file of a person.
 const SHOWN_ITEM: Id<ShownItem> = Id {
     thing: "method, policy or rule",
     lists: &["methods", "policies", "impacts"],
@@ -97,6 +90,10 @@ const SHOWN_ITEM: Id<ShownItem> = Id {
         methods.chain(loops).chain(impacts).collect()
     },
     spellings: || [(METHOD.spellings)(), (LOOP.spellings)()].concat(),
+    files: &[
+        (STEP, |path| Ok(ShownItem::Method { method: load_method(path)?, alias: None })),
+        (FRAMES, |path| load_loop(path).map(ShownItem::Loop)),
+    ],
 };
 
 /// A language of the code.
@@ -111,15 +108,13 @@ enum CodeLanguage {
 }
 
 const CODE_LANGUAGE: Id<CodeLanguage> = Id {
-    thing: LANGUAGE.thing,
-    lists: &[],
-    all: || {
+    spellings: languages_by_other_names,
+    ..Id::new(LANGUAGE.thing, || {
         let methods =
             (LANGUAGE.all)().into_iter().map(|(id, language)| (id, CodeLanguage::Of(language)));
         let others = [("cpp", CodeLanguage::Cpp), ("step", CodeLanguage::Step)];
         methods.chain(others.map(|(id, language)| (id.into(), language))).collect()
-    },
-    spellings: languages_by_other_names,
+    })
 };
 
 pub(super) fn run(args: &ShowArgs) -> Result<(), Error> {

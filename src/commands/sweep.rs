@@ -15,7 +15,7 @@ use super::id::IMPACT;
 use super::interrupt::watch_for_interrupt;
 use super::output::table::{Column, RowFormat, write_rows};
 use super::output::{Destination, STDOUT};
-use super::own_method::METHOD_OR_FILE;
+use super::own_file::METHOD_OR_FILE;
 use super::scene_file;
 use super::spring::SpringArgs;
 use super::tick_rate::TickRatesArgs;

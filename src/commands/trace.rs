@@ -6,8 +6,7 @@ use clap::Args;
 use serde_json::Value;
 
 use super::error::Error;
-use super::experiment;
-use super::experiment_args::ExperimentArgs;
+use super::experiment_args::{ExperimentArgs, TickArgs};
 use super::help::flowing;
 use super::output::Output;
 use super::output::table::{RowFormat, RowWriter};
@@ -45,17 +44,8 @@ pub(super) struct TraceArgs {
     #[command(flatten)]
     experiment: ExperimentArgs,
 
-    /// Simulated seconds [default: the scene's]
-    ///
-    /// To the nearest tick.
-    #[arg(long, value_name = "s", value_parser = experiment::seconds)]
-    #[arg(allow_negative_numbers = true)]
-    seconds: Option<f64>,
-
-    /// Write only the ticks that are multiples of N
-    #[arg(long, value_name = "N", default_value_t = 1)]
-    #[arg(value_parser = clap::value_parser!(u64).range(1..=1_000_000_000))]
-    every: u64,
+    #[command(flatten)]
+    ticks: TickArgs,
 
     /// Write each metric too (`regatta list metrics`)
     #[arg(long)]
@@ -75,7 +65,7 @@ pub(super) struct TraceArgs {
 pub(super) fn run(args: &TraceArgs) -> Result<(), Error> {
     let mode = if args.experiment.names_no_method() { Mode::Race } else { Mode::Solo };
     let experiment = args.experiment.load(mode)?;
-    let seconds = args.seconds.unwrap_or(experiment.scene.seconds);
+    let seconds = args.ticks.seconds.unwrap_or(experiment.scene.seconds);
     let mut studio = experiment.studio();
     let mut halts = Halts::default();
 
@@ -145,7 +135,7 @@ impl<'a> Trace<'a> {
     /// Writes the present state of the truth and of every lane, but not of bodies that have halted.
     fn tick(&mut self, studio: &Studio) -> io::Result<()> {
         let race = studio.race();
-        if !race.tick().is_multiple_of(self.args.every) {
+        if !race.tick().is_multiple_of(self.args.ticks.every) {
             return Ok(());
         }
         let Self { rows, args, cells } = self;

@@ -7,6 +7,7 @@ pub use super::criterion::CriterionMet;
 use super::criterion::{CRITERIA, Criterion};
 use super::judge::{CriterionFinding, FULL_THROTTLE, Judge, horizon_s};
 use super::outcome::Outcome;
+use super::pace::Pace;
 use super::rank::Ranking;
 use super::run::MAX_WORK;
 use super::searches::{
@@ -112,6 +113,10 @@ impl Adviser {
     }
 
     /// Whether the work limit is reached.
+    fn pace(&self, spec: LaneSpec) -> Pace {
+        Pace { spec, tick_hz: self.tick_hz }
+    }
+
     fn is_spent(&self) -> bool {
         self.judge.meter().budget_left() == 0
     }
@@ -206,7 +211,7 @@ impl Adviser {
 
     /// Like [`Self::judged`], as work in slices.
     pub(super) async fn advice_on(&self, spec: LaneSpec) -> MethodAdvice {
-        let verdict = self.judge.verdict_within(MAX_WORK, spec, self.tick_hz).await;
+        let verdict = self.judge.verdict_within(MAX_WORK, self.pace(spec)).await;
         let mut met = [const { CriterionResult::Unknown }; CRITERIA.len()];
         // A method that takes too much work with one step per tick also does with more substeps, and in each run for
         // a criterion.
@@ -283,7 +288,7 @@ impl Adviser {
     /// Returns whether a method meets a criterion, and with how many substeps. With one substep fewer it fails.
     async fn fewest_substeps(&self, spec: LaneSpec, criterion: Criterion) -> CriterionResult {
         let with = |substeps: u32| LaneSpec { substeps, ..spec };
-        let tried = |substeps| self.judge.meets(criterion, with(substeps), self.tick_hz);
+        let tried = |substeps| self.judge.meets(criterion, self.pace(with(substeps)));
         let (mut fails, mut holds, mut with_most) = (0, None, None);
         for substeps in (0..).map(tried_substeps).take_while(|&n| n <= MAX_ADVISED_SUBSTEPS) {
             // If even the maximum number of substeps fails, the numbers in between are not searched.
@@ -332,7 +337,9 @@ impl Adviser {
     /// Returns the lowest of [`RATES_HZ`](crate::sim::stability::RATES_HZ) at which a lane meets a criterion, in Hz;
     /// `None` if the lane meets it at no rate.
     pub fn slowest(&self, spec: LaneSpec, criterion: Criterion) -> Option<u32> {
-        RateSearch::run(|hz| block_on(self.judge.meets(criterion, spec, hz.into())).holds())
+        RateSearch::run(|hz| {
+            block_on(self.judge.meets(criterion, Pace { spec, tick_hz: hz.into() })).holds()
+        })
     }
 
     /// Returns the lowest whole rate that a search down from the requested rate finds to meet the criterion. One hertz
@@ -346,7 +353,7 @@ impl Adviser {
         let mut is_known = true;
         let mut search = RatesDown::from(self.tick_hz.hz().ceil() as u32, strides);
         while let Some(hz) = search.next() {
-            let miss = self.judge.misses(criterion, spec, hz.into()).await;
+            let miss = self.judge.misses(criterion, Pace { spec, tick_hz: hz.into() }).await;
             if miss.is_some() {
                 is_known =
                     miss != Some(CriterionFinding::Unknown) || !self.judge.has_ticks(hz.into());
@@ -369,7 +376,7 @@ impl Adviser {
             let was_by_a_hair = is_by_a_hair;
             is_by_a_hair = has_hairs && !self.is_accurate_with_margin(spec, next).await;
             if is_by_a_hair || !has_hairs {
-                last_miss = judge.misses(criterion, spec, self.tick_hz).await;
+                last_miss = judge.misses(criterion, self.pace(spec)).await;
             }
             let mut between = held * PARTS_OF_STRIDE + 1..next;
             while (was_by_a_hair || is_by_a_hair)
@@ -378,7 +385,7 @@ impl Adviser {
                 && let Some(index) = between.next()
                 && let Some(judge) = self.stiffer(index).await
             {
-                last_miss = judge.misses(criterion, spec, self.tick_hz).await;
+                last_miss = judge.misses(criterion, self.pace(spec)).await;
             }
             held += usize::from(last_miss.is_none() && !self.is_spent());
         }
@@ -425,7 +432,7 @@ impl Adviser {
     /// Whether a lane is accurate on the scene with this factor, with a margin.
     async fn is_accurate_with_margin(&self, spec: LaneSpec, factor: usize) -> bool {
         match self.stiffer(factor).await {
-            Some(judge) => judge.is_accurate_sparing(SPARE_WHEN_STIFFER, spec, self.tick_hz).await,
+            Some(judge) => judge.is_accurate_sparing(SPARE_WHEN_STIFFER, self.pace(spec)).await,
             None => false,
         }
     }

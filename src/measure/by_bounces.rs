@@ -3,10 +3,10 @@
 use std::ops::ControlFlow;
 
 use super::bounce_finding::BounceFinding;
+use super::pace::Pace;
 use super::truth::{BodyTruth, FollowedBody, ticks};
 use super::verdict::RunFailure;
 use crate::run::race::StopReason;
-use crate::scene::LaneSpec;
 use crate::sim::{Bounces, Solver, Stepper, TickRate};
 
 /// A flight of fewer ticks is not compared: it is near the end of the bouncing, and its height is known badly.
@@ -34,11 +34,10 @@ pub(super) struct BounceRun {
     pub(super) seconds: f64,
 }
 
-/// Runs the body of `truth` under `spec` up to the horizon, or to the first input.
+/// Runs the body of `truth` at this pace up to the horizon, or to the first input.
 pub(super) async fn follow_bounces(
     truth: &BodyTruth,
-    spec: LaneSpec,
-    tick_hz: TickRate,
+    Pace { spec, tick_hz }: Pace,
     max_work: u64,
 ) -> BounceRun {
     let h = tick_hz.step_s();

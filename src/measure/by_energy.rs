@@ -7,11 +7,10 @@ use super::amplitude::{Trend, amplitude};
 use super::criterion::VISIBLE;
 use super::energy::Means;
 use super::energy_finding::EnergyFinding;
+use super::pace::Pace;
 use super::truth::{BodyTruth, FollowedBody, ticks};
 use super::verdict::RunFailure;
 use crate::run::race::StopReason;
-use crate::scene::LaneSpec;
-use crate::sim::TickRate;
 use crate::sim::stability::{PowerIteration, Tick};
 
 /// Divisor of a run's work limit. The quotient is the work limit for the spectral radius.
@@ -34,18 +33,14 @@ impl EnergyRun {
     }
 }
 
-/// Runs the body of `truth` under `spec` over the horizon, with its inputs.
-pub(super) async fn follow_energy(
-    truth: &BodyTruth,
-    spec: LaneSpec,
-    tick_hz: TickRate,
-    max_work: u64,
-) -> EnergyRun {
+/// Runs the body of `truth` at this pace over the horizon, with its inputs.
+pub(super) async fn follow_energy(truth: &BodyTruth, pace: Pace, max_work: u64) -> EnergyRun {
+    let Pace { spec, tick_hz } = pace;
     let max_work = max_work.min(truth.meter.budget_left());
     let horizon = ticks(truth.horizon_s, tick_hz);
     let mut followed = truth.follow(spec.solver(), spec.substeps, tick_hz).with_max_work(max_work);
     let is_conserved = followed.body.stepper.energy().is_some();
-    let spectral_radius = spectral_radius(truth, &mut followed.body, spec, tick_hz, max_work).await;
+    let spectral_radius = spectral_radius(truth, &mut followed.body, pace, max_work).await;
     let (mut seconds, mut evaluations) = (0.0, 0);
     let mut means = Means::over(horizon);
     // These are the largest kinetic energy, energy loss and energy gain, in joules.
@@ -95,8 +90,7 @@ pub(super) async fn follow_energy(
 async fn spectral_radius(
     truth: &BodyTruth,
     body: &mut FollowedBody,
-    spec: LaneSpec,
-    tick_hz: TickRate,
+    Pace { spec, tick_hz }: Pace,
     max_work: u64,
 ) -> Option<f64> {
     let n = body.stepper.q().len() as u64;

@@ -98,6 +98,7 @@ mod tests {
     use std::sync::Arc;
 
     use super::*;
+    use crate::measure::pace::Pace;
     use crate::measure::run::{MAX_WORK, Until, follow};
     use crate::measure::slices::block_on;
     use crate::measure::verdict::RunFailure;
@@ -111,7 +112,8 @@ mod tests {
         let spec = LaneSpec::plain(method("velocity-verlet").unwrap());
         let body = &scene.bodies[0];
         let truth = block_on(BodyTruth::find(body, &[], 1.0, scene.seconds, Arc::default()));
-        let run = block_on(follow(&truth, spec, 60.into(), Until::LongRun, MAX_WORK));
+        let run =
+            block_on(follow(&truth, Pace { spec, tick_hz: 60.into() }, Until::LongRun, MAX_WORK));
         (truth, run)
     }
 

@@ -2,12 +2,12 @@
 
 use std::fmt;
 
+use super::pace::Pace;
 use super::truth::BodyTruth;
 use crate::run::race::Chase;
-use crate::scene::LaneSpec;
+use crate::sim::Solver;
 use crate::sim::number::{round, significant};
 use crate::sim::numerics::bisect;
-use crate::sim::{Solver, TickRate};
 
 /// How a body approaches a fixed target, under a method and in truth.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -35,8 +35,7 @@ const FAINT_PERCENT: f64 = 0.1;
 impl ChaseFinding {
     pub(super) fn of(
         truth: &BodyTruth,
-        spec: LaneSpec,
-        tick_hz: TickRate,
+        Pace { spec, tick_hz }: Pace,
         chase: Option<&Chase>,
     ) -> Option<Self> {
         let chase = chase?;

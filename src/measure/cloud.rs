@@ -17,10 +17,9 @@ mod density;
 mod lozenges;
 mod request;
 mod running;
-mod section;
 
-pub use crate::scene::{CloudKind, CloudShape};
-use axes::{CloudAxes, ShownTicks};
+pub use crate::scene::CloudShape;
+use axes::CloudAxes;
 pub use border::CloudBorder;
 use course::{Course, Memory, Subject, copies_of};
 pub use density::{Density, MAX_LINE_PART, PlaneView};
@@ -326,21 +325,6 @@ impl Cloud {
             Area::Lozenges(corners) => corners.go_to(tick),
             Area::Border(border) => border.go_to(tick),
         }
-    }
-
-    /// Returns the coordinates and velocities of all points at this number of ticks after the start. Between two ticks
-    /// they are interpolated linearly, and the cloud moves to the later tick.
-    pub fn states_at(&mut self, ticks: f64) -> [Vec<f64>; 2] {
-        let part = ticks.fract();
-        self.go_to(ticks as u64);
-        let mut states = [self.q(), self.v()].map(<[f64]>::to_vec);
-        if part > 0.0 {
-            self.advance(1);
-            for (from, to) in states.iter_mut().zip([self.q(), self.v()]) {
-                from.iter_mut().zip(to).for_each(|(from, to)| *from += part * (to - *from));
-            }
-        }
-        states
     }
 
     /// Returns the current tick.

@@ -14,6 +14,7 @@ use super::change::MotionChange;
 use super::chase_finding::ChaseFinding;
 use super::criterion::TOLERANCE;
 use super::modes::Modes;
+use super::pace::Pace;
 use super::run::{JudgedRun, MAX_WORK, Until, follow};
 use super::slices::{Meter, Once, block_on};
 use super::truth::{BodyTruth, ticks};
@@ -120,7 +121,7 @@ impl Judge {
 
     /// Returns the verdict on a lane at this tick rate, which is the verdict on its worst body.
     pub fn verdict(&self, spec: LaneSpec, tick_hz: impl Into<TickRate>) -> Verdict {
-        block_on(self.verdict_within(self.max_work, spec, tick_hz.into()))
+        block_on(self.verdict_within(self.max_work, Pace { spec, tick_hz: tick_hz.into() }))
     }
 
     /// Returns the true motion of a body.
@@ -134,15 +135,10 @@ impl Judge {
     }
 
     /// Returns the verdict on a lane. A body whose run exceeds the work limit is not judged.
-    pub(super) async fn verdict_within(
-        &self,
-        max_work: u64,
-        spec: LaneSpec,
-        tick_hz: TickRate,
-    ) -> Verdict {
+    pub(super) async fn verdict_within(&self, max_work: u64, pace: Pace) -> Verdict {
         let mut verdicts = Vec::with_capacity(self.truths.len());
         for body in 0..self.truths.len() {
-            verdicts.push(self.verdict_on_body(body, max_work, spec, tick_hz).await);
+            verdicts.push(self.verdict_on_body(body, max_work, pace).await);
         }
         Self::of_all(verdicts)
     }
@@ -172,46 +168,37 @@ impl Judge {
         Self::of_all(of_bodies)
     }
 
-    async fn verdict_on_body(
-        &self,
-        body: usize,
-        max_work: u64,
-        spec: LaneSpec,
-        tick_hz: TickRate,
-    ) -> Verdict {
+    async fn verdict_on_body(&self, body: usize, max_work: u64, pace: Pace) -> Verdict {
         let truth = &self.truths[body];
         if truth.is_too_dear() {
             // A tick of a large body may take seconds, so its run ends with the horizon. Later growth would matter to
             // nobody.
-            return match self.not_judged(tick_hz, max_work == 0) {
+            return match self.not_judged(pace.tick_hz, max_work == 0) {
                 Some(why) => self.verdict_with(body, Finding::NotJudged(why), LongTerm::default()),
-                None => self.by_energy(
-                    body,
-                    tick_hz,
-                    follow_energy(truth, spec, tick_hz, max_work).await,
-                ),
+                None => {
+                    self.by_energy(body, pace.tick_hz, follow_energy(truth, pace, max_work).await)
+                }
             };
         }
         if truth.bounces() {
-            return self.by_bounces(body, spec, tick_hz, max_work).await;
+            return self.by_bounces(body, pace, max_work).await;
         }
-        let found = Modes::of(truth, spec, tick_hz).await;
+        let found = Modes::of(truth, pace).await;
         let max_work = if found.is_ok() { max_work } else { 0 };
         let by_modes = found
             .ok()
             .flatten()
             .map(|modes| modes.change(truth.measure(), self.horizon_s - truth.last_input_s()));
         let until = if by_modes.is_some() { Until::Horizon } else { Until::LongRun };
-        let run = follow(truth, spec, tick_hz, until, max_work).await;
-        self.compared(body, spec, tick_hz, &run, by_modes).await
+        let run = follow(truth, pace, until, max_work).await;
+        self.compared(body, pace, &run, by_modes).await
     }
 
     /// Returns the verdict on a body from a run alongside the truth, and from its modes if they determine the motion.
     async fn compared(
         &self,
         body: usize,
-        spec: LaneSpec,
-        tick_hz: TickRate,
+        pace: Pace,
         run: &JudgedRun,
         by_modes: Option<MotionChange>,
     ) -> Verdict {
@@ -230,8 +217,8 @@ impl Judge {
         let too_wide = swing.map(|swing| run.widest / swing.widest()).filter(|&width| width > 1.0);
         let is_of_phase =
             |early_s: f64| swing.is_some_and(|swing| swing.is_cause_of(early_s, run.error));
-        let truth_error = truth.gap(run.seconds, tick_hz).await;
-        let not_judged = self.not_judged(tick_hz, run.is_cut_short());
+        let truth_error = truth.gap(run.seconds, pace.tick_hz).await;
+        let not_judged = self.not_judged(pace.tick_hz, run.is_cut_short());
         let finding = if let Some(failure) = run.failure.clone() {
             Finding::Failed { failure, by_energy: None }
         } else if let Some(why) = not_judged {
@@ -240,7 +227,7 @@ impl Judge {
             Finding::NoTruth(why)
         } else {
             let known = Some(run).filter(|_| are_swings_known);
-            let looks_right = self.looks_right(body, spec, tick_hz, known).await;
+            let looks_right = self.looks_right(body, pace, known).await;
             let looks_right = match looks_right {
                 Ok(_) => Some(true),
                 Err(CriterionMiss::Fails) => Some(false),
@@ -261,21 +248,15 @@ impl Judge {
                 frequency_error,
             })
         };
-        let chase = ChaseFinding::of(truth, spec, tick_hz, run.chase.as_ref());
+        let chase = ChaseFinding::of(truth, pace, run.chase.as_ref());
         let verdict = self.verdict_with(body, finding, long_term);
         Verdict { chase, evaluations: run.evaluations, seconds: run.seconds, ..verdict }
     }
 
     /// Returns the verdict on a body with walls.
-    async fn by_bounces(
-        &self,
-        body: usize,
-        spec: LaneSpec,
-        tick_hz: TickRate,
-        max_work: u64,
-    ) -> Verdict {
-        let run = follow_bounces(&self.truths[body], spec, tick_hz, max_work).await;
-        let finding = match (run.failure, self.not_judged(tick_hz, run.is_too_much)) {
+    async fn by_bounces(&self, body: usize, pace: Pace, max_work: u64) -> Verdict {
+        let run = follow_bounces(&self.truths[body], pace, max_work).await;
+        let finding = match (run.failure, self.not_judged(pace.tick_hz, run.is_too_much)) {
             (Some(failure), _) => Finding::Failed { failure, by_energy: None },
             (None, Some(why)) => Finding::NotJudged(why),
             (None, None) if run.finding.is_empty() => Finding::NotJudged(NotJudged::NoFlight),

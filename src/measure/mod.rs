@@ -24,6 +24,7 @@ mod modes;
 mod offset;
 mod one_step;
 mod outcome;
+mod pace;
 mod rank;
 mod report;
 mod run;

@@ -3,15 +3,16 @@
 use super::amplitude::{Measure, Trend};
 use super::change::MotionChange;
 use super::criterion::VISIBLE;
+use super::pace::Pace;
 use super::run::MAX_WORK;
 use super::swing_curve::SwingCurve;
 use super::truth::{BodyTruth, MovedMode, work_of};
 use super::verdict::LongTerm;
 use crate::scene::LaneSpec;
+use crate::sim::Stepper;
 use crate::sim::integrators::{Family, StepFailure};
 use crate::sim::numerics::bisect;
 use crate::sim::stability::{FOREVER_S, NormalMode, Stability, Tick, unforced};
-use crate::sim::{Stepper, TickRate};
 
 /// The error if finding the modes would exceed the work limit of a run.
 pub(super) struct TooMuch;
@@ -115,8 +116,7 @@ impl<'a> Modes<'a> {
     /// Fails if this takes too much work.
     pub(super) async fn of(
         truth: &'a BodyTruth,
-        spec: LaneSpec,
-        tick_hz: TickRate,
+        Pace { spec, tick_hz }: Pace,
     ) -> Result<Option<Self>, TooMuch> {
         let Some(modes) = Self::modes_of(truth, spec) else { return Ok(None) };
         let n = modes.len() as u64;

@@ -4,11 +4,11 @@ use std::ops::ControlFlow;
 use std::sync::Arc;
 
 use super::energy::Energy;
+use super::pace::Pace;
 use super::swings::Swings;
 use super::truth::{BodyTruth, FollowedBody, LONG_RUN, TruthSeries, ticks};
 use super::verdict::RunFailure;
 use crate::run::race::{Chase, StopReason};
-use crate::scene::LaneSpec;
 pub use crate::scene::custom::MAX_WORK;
 use crate::sim::integrators::StepFailure;
 use crate::sim::{Stepper, TickRate};
@@ -89,11 +89,10 @@ pub(super) struct JudgedRun {
     pub(super) swings: Option<Swings>,
 }
 
-/// Runs the body of `truth` under `spec` from its start.
+/// Runs the body of `truth` at this pace from its start.
 pub(super) async fn follow(
     truth: &BodyTruth,
-    spec: LaneSpec,
-    tick_hz: TickRate,
+    Pace { spec, tick_hz }: Pace,
     until: Until,
     max_work: u64,
 ) -> JudgedRun {

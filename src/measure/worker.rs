@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use super::advice::{Adviser, MethodAdvice, criterion_to_take, recommended};
 use super::judge::{Judge, horizon_s};
+use super::pace::Pace;
 use super::run::MAX_WORK;
 use super::slices::{Meter, Sliced};
 use super::stability_map::{MapRequest, MapWork, StabilityMap};
@@ -334,14 +335,13 @@ impl AnalysisWorker {
             // Work that earlier verdicts did not use is left for later ones.
             let left = self.max_work.saturating_sub(judge.meter().counted());
             let sharers = if self.judged < *first { *first } else { entries.len() };
+            let pace = Pace { spec, tick_hz };
             let share = (left / (sharers - self.judged) as u64).min(MAX_WORK);
             return Some(Sliced::new(judge.meter().clone(), async move {
                 let Some(of_lane) = of_lane else {
-                    return AnswerPart::Verdict(
-                        judge.verdict_within(share, spec, tick_hz).await.into(),
-                    );
+                    return AnswerPart::Verdict(judge.verdict_within(share, pace).await.into());
                 };
-                let verdict = of_lane.verdict_within(share, spec, tick_hz).await;
+                let verdict = of_lane.verdict_within(share, pace).await;
                 AnswerPart::Verdict(verdict.beside(&of_lane, &judge, tick_hz).await.into())
             }));
         }

@@ -1,36 +1,6 @@
-//! The pictures of clouds of starts: their shapes, or a section.
+//! The shapes of clouds of starts.
 
 use std::f64::consts::TAU;
-
-/// The picture of a cloud of starts.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum CloudKind {
-    /// The image at the present tick of a shape at the start.
-    Shape(CloudShape),
-    /// All places that the points reach at the periods of a drive or, if there is no drive, at the ticks.
-    Section,
-}
-
-impl CloudKind {
-    /// All kinds, with the usual one first.
-    pub const ALL: [Self; 4] = {
-        let [usual, second, third] = CloudShape::ALL;
-        [Self::Shape(usual), Self::Shape(second), Self::Shape(third), Self::Section]
-    };
-
-    /// Returns the name of the kind.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Shape(shape) => shape.id(),
-            Self::Section => "section",
-        }
-    }
-
-    /// Returns the kind with this name.
-    pub fn named(name: &str) -> Option<Self> {
-        Self::ALL.into_iter().find(|kind| kind.name() == name)
-    }
-}
 
 /// The shape of a cloud at its start, in the square from -1 to 1.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -61,7 +31,7 @@ impl CloudShape {
     /// All shapes, with the usual one first.
     pub const ALL: [Self; 3] = [Self::Cat, Self::Disc, Self::Ring];
 
-    /// Returns the name of the shape on the command line.
+    /// Returns the name of the shape in scenes and on the command line.
     pub fn id(self) -> &'static str {
         match self {
             Self::Disc => "disc",

@@ -155,7 +155,6 @@ impl Scene {
             bodies: vec![SceneBody { appearance, ..SceneBody::new(name, kind, values) }],
             script: Vec::new(),
             own_methods: Vec::new(),
-            outdated: None,
             checks: Vec::new(),
         })
     }

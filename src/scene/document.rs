@@ -14,13 +14,13 @@ use super::keys::{
     IMPACT, Key, METHOD, STEP_S, TICK_HZ, list, number, quoted, read_lane_spec, replace_if_read,
     step_s, tick_hz,
 };
-use super::nearest::{listed, nearest, offer};
+use super::nearest::listed;
 use super::own::{OWN, read_own};
 use super::script::{self, SceneContext};
 use super::table::Table;
 use super::wanted::{Field, Wanted};
 use super::{
-    CloudKind, LaneSpec, MAX_LANES, MAX_SECONDS, MIN_SECONDS, Scene, USUAL_SECONDS, claim_horizon,
+    CloudShape, LaneSpec, MAX_LANES, MAX_SECONDS, MIN_SECONDS, Scene, USUAL_SECONDS, claim_horizon,
     syntax,
 };
 use crate::sim::bodies::{BODIES, Range};
@@ -132,11 +132,14 @@ pub(super) static TOP: [Key<Draft, Scene>; 11] = [
     Key {
         field: Field::optional(
             "clouds",
-            "opens it with clouds of many starts in place of the bodies: their shape, or their section",
+            "opens it with clouds of many starts, of this shape, in place of the bodies",
             Wanted::Clouds,
         ),
-        read: |draft, top, field| draft.scene.clouds = read_clouds(top, field),
-        write: |scene| scene.clouds.map(|kind| quoted(kind.name())),
+        read: |draft, top, field| {
+            let all = CloudShape::ALL.map(|shape| (shape.id(), shape));
+            draft.scene.clouds = top.named(field, |id| format!("unknown clouds {id:?}"), &all);
+        },
+        write: |scene| scene.clouds.map(|shape| quoted(shape.id())),
     },
     Key {
         field: OPENING_METHOD,
@@ -165,18 +168,6 @@ pub(super) static TOP: [Key<Draft, Scene>; 11] = [
 fn opening_method(scene: &Scene, is_plain: bool) -> Option<String> {
     let method = scene.opening_method.filter(|_| scene.own_methods.is_empty() == is_plain)?;
     Some(quoted(method.id))
-}
-
-/// Reads the kind of clouds that a scene opens with.
-fn read_clouds(top: &mut Table<'_>, field: &Field) -> Option<CloudKind> {
-    let written = top.text(field)?;
-    let found = CloudKind::named(&written);
-    if found.is_none() {
-        let names = CloudKind::ALL.map(CloudKind::name);
-        let remedy = offer(nearest(&written, names.iter().map(|it| (*it, *it))), &names, '"');
-        top.report_fault(top.span(field.key), format!("unknown clouds {written:?}"), remedy);
-    }
-    found
 }
 
 /// The keys of `[race]`.
@@ -211,11 +202,11 @@ fn at_top(key: &str) -> Option<&'static str> {
     TOP.iter().map(|it| it.field.key).find(|it| *it == key)
 }
 
-/// Reads the scene called `name`, and returns the scene with warnings about deprecated syntax.
+/// Reads the scene called `name`.
 ///
 /// # Errors
 /// Fails with all faults of the text, in no particular order.
-pub(super) fn read(name: &str, text: &str) -> Result<(Scene, Vec<SceneError>), Vec<SceneError>> {
+pub(super) fn read(name: &str, text: &str) -> Result<Scene, Vec<SceneError>> {
     let (document, errors) = DeTable::parse_recoverable(text);
     let mut errors = syntax::errors(text, errors);
     // After a duplicate key, the rest of the file can be read. After other syntax errors it cannot.
@@ -249,7 +240,6 @@ pub(super) fn read(name: &str, text: &str) -> Result<(Scene, Vec<SceneError>), V
         script: Vec::new(),
         checks: Vec::new(),
         own_methods: top.own().to_vec(),
-        outdated: None,
     };
     let mut draft = Draft { scene, listed: None, impact: Default::default() };
     Key::read_all(&TOP, &mut draft, &mut top);
@@ -259,13 +249,9 @@ pub(super) fn read(name: &str, text: &str) -> Result<(Scene, Vec<SceneError>), V
     name_the_nameless(&mut bodies);
     scene.lanes = read_lanes(text, &bodies, by_name, impact, &mut top);
     check_opening_method(&scene, &mut top);
-    if let Some(mut race) = top.table(&RACE_TABLE) {
-        Key::read_all(&RACE, &mut scene, &mut race);
-        top.add_faults_of(race);
-    }
+    top.read_below(&RACE_TABLE, |race| Key::read_all(&RACE, &mut scene, race));
     let context = SceneContext { bodies: &bodies, lanes: &scene.lanes, tick_hz: scene.tick_hz };
-    let (script, outdated) = script::read(&context, &mut top);
-    scene.script = script;
+    scene.script = script::read(&context, &mut top);
     scene.checks = script::read_checks(&context, &mut top);
     errors.extend(top.finish());
     let may_mean_a_body = |error: &SceneError| error.fault.kind == FaultKind::NoTable;
@@ -280,7 +266,7 @@ pub(super) fn read(name: &str, text: &str) -> Result<(Scene, Vec<SceneError>), V
         return Err(errors);
     }
     scene.bodies = complete_bodies(bodies);
-    Ok((scene, outdated))
+    Ok(scene)
 }
 
 fn read_lanes(

@@ -47,7 +47,7 @@ pub(crate) use appearance::{Drawing, Preview};
 #[cfg(feature = "cli")]
 pub(crate) use clip::truncate;
 pub(crate) use clip::{clip, clip_list};
-pub use cloud_shape::{CloudKind, CloudShape};
+pub use cloud_shape::CloudShape;
 pub use custom::{Options, OptionsError};
 pub use edit::{EditError, check_entered, edited_values, entered_tick_rate};
 pub use errors::{MAX_SHOWN, SceneError, SceneErrors, ShownError};
@@ -138,8 +138,8 @@ pub struct Scene {
     pub opens_as_race: bool,
     /// Whether a race of the scene's only body opens with each lane in a band of its own, beside its lines of code.
     pub opens_in_bands: bool,
-    /// The kind of the clouds of many starts with which the scene opens; `None` if it opens with the bodies.
-    pub clouds: Option<CloudKind>,
+    /// The shape of the clouds of many starts with which the scene opens; `None` if it opens with the bodies.
+    pub clouds: Option<CloudShape>,
     /// The bodies in the order of the file, 1 to [`MAX_BODIES`], each with a unique name.
     pub bodies: Vec<SceneBody>,
     /// The scripted commands by time. Commands with the same time keep the order of the file.
@@ -147,8 +147,6 @@ pub struct Scene {
     /// States that a race of the scene must reproduce, in the order of the file. A scene with checks is a recording,
     /// and its file gives the script in ticks.
     pub checks: Vec<Check>,
-    /// Warnings about deprecated syntax in the file, with its replacement; `None` if there is none.
-    pub outdated: Option<Arc<SceneErrors>>,
 }
 
 /// A body of a scene.
@@ -240,12 +238,8 @@ impl Scene {
         // Some editors begin a file with a byte order mark, and none of them counts it as a column.
         let text = text.strip_prefix('\u{feff}').unwrap_or(text);
         let stem = Path::new(file).file_stem().and_then(|stem| stem.to_str());
-        let (mut scene, outdated) = document::read(stem.unwrap_or(file), text)
-            .map_err(|errors| SceneErrors::new(file, text, errors))?;
-        if !outdated.is_empty() {
-            scene.outdated = Some(SceneErrors::new(file, text, outdated).into());
-        }
-        Ok(scene)
+        document::read(stem.unwrap_or(file), text)
+            .map_err(|errors| SceneErrors::new(file, text, errors))
     }
 
     /// Returns for each command of the script its tick in a run at the scene's rate, and the tick's time in seconds.

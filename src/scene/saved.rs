@@ -27,11 +27,7 @@ impl Scene {
 fn documents(scene: &Scene) -> Option<[DocumentMut; 2]> {
     let source = scene.source.as_deref()?.replace("\r\n", "\n");
     let scene = Scene::parse("", &source).ok()?;
-    let mut documents = [parse_document(&source)?, parse_document(&scene.to_toml())?];
-    if scene.outdated.is_some() {
-        documents.iter_mut().for_each(|document| _ = document.remove(COMMAND));
-    }
-    Some(documents)
+    Some([parse_document(&source)?, parse_document(&scene.to_toml())?])
 }
 
 /// Returns the author's text of a scene, changed where the scene's own plain text differs from `plain`.

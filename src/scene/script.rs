@@ -3,7 +3,6 @@
 use std::ops::Range as Span;
 
 use super::described::{BodyDraft, check_method};
-use super::errors::SceneError;
 use super::fault::{FaultKind, SceneFault};
 use super::keys::{
     JOINT_HZ, Key, METHOD, SPEC, STEP_S, SUBSTEPS, TICK_HZ, TOLERANCE, adaptive_methods, number,
@@ -172,12 +171,7 @@ pub(super) static COMMAND_KEYS: [CommandKey; 12] = [
     ),
     command_key(
         Field::optional("set", "sets a parameter of a body", Wanted::Table("set")),
-        |context, row, field| {
-            let mut set = row.table(field)?;
-            let action = read_set(context, &mut set);
-            row.add_faults_of(set);
-            action
-        },
+        |context, row, field| row.read_below(field, |set| read_set(context, set))?,
         |scene, action| {
             let Action::Set { body, parameter, value } = action else { return None };
             let body = &scene.bodies[*body];
@@ -189,12 +183,7 @@ pub(super) static COMMAND_KEYS: [CommandKey; 12] = [
     ),
     command_key(
         Field::optional("place", "puts a body into a state", Wanted::Table("place")),
-        |context, row, field| {
-            let mut place = row.table(field)?;
-            let action = read_place(context, &mut place);
-            row.add_faults_of(place);
-            action
-        },
+        |context, row, field| row.read_below(field, |place| read_place(context, place))?,
         |scene, action| {
             let Action::Place { body, q, v } = action else { return None };
             let name = quoted(&scene.bodies[*body].name);
@@ -203,12 +192,7 @@ pub(super) static COMMAND_KEYS: [CommandKey; 12] = [
     ),
     command_key(
         Field::optional("push", "changes a body's velocities", Wanted::Table("push")),
-        |context, row, field| {
-            let mut push = row.table(field)?;
-            let action = read_push(context, &mut push);
-            row.add_faults_of(push);
-            action
-        },
+        |context, row, field| row.read_below(field, |push| read_push(context, push))?,
         |scene, action| {
             let Action::Push { body, by } = action else { return None };
             Some(pull(scene, *body, by, 1))
@@ -319,12 +303,8 @@ struct Command {
     tolerance_span: Span<usize>,
 }
 
-/// Reads the script, sorted by time; commands with the same time keep the order of the file. Also returns the
-/// warnings about deprecated ticks.
-pub(super) fn read(
-    context: &SceneContext<'_>,
-    top: &mut Table<'_>,
-) -> (Vec<Scripted>, Vec<SceneError>) {
+/// Reads the script, sorted by time; commands with the same time keep the order of the file.
+pub(super) fn read(context: &SceneContext<'_>, top: &mut Table<'_>) -> Vec<Scripted> {
     let mut commands: Vec<Command> = Vec::new();
     let rows = top.rows(COMMAND);
     let is_mixed = [AT_S.key, TICK.key].iter().all(|key| rows.iter().any(|row| row.has(key)));
@@ -358,11 +338,8 @@ pub(super) fn read(
     };
     let in_ticks = commands.iter().filter_map(told_in_ticks);
     let mut script = Scripted::of_ticks(context.tick_hz, in_ticks);
-    let mut warnings = Vec::new();
     if !top.has(CHECKS) {
-        // Later times are cut, because no scene is longer.
-        script.iter_mut().for_each(|row| row.at_s = row.at_s.min(MAX_SECONDS));
-        warnings = script.iter().zip(&commands).map(outdated).collect();
+        script.iter().zip(&commands).for_each(|(row, command)| refuse_tick(row, command, top));
     }
     script.extend(commands.iter().filter_map(told_in_seconds));
     // If a lane or a command could not be read, the methods in force are unknown.
@@ -370,7 +347,7 @@ pub(super) fn read(
         let spans = commands.into_iter().map(|command| command.tolerance_span);
         check_tolerances(context.lanes, script.iter().zip(spans), top);
     }
-    (script, warnings)
+    script
 }
 
 /// Reads the time of a command. Reports a tick if `is_mixed` is true, which means that other commands have seconds.
@@ -388,14 +365,12 @@ fn read_when(row: &mut Table<'_>, is_mixed: bool) -> Option<When> {
     }
 }
 
-/// Returns the warning about a tick in a scene, with the time in seconds as its remedy.
-fn outdated((Scripted { at_s, .. }, command): (&Scripted, &Command)) -> SceneError {
-    let (tick, at_s) = (TICK.key, format!("`{} = {}`", AT_S.key, number(*at_s)));
-    let what = format!(
-        "`{tick}` in a scene is read in this release only: at another tick rate the motion would change"
-    );
-    let fault = SceneFault::new(what, format!("write {at_s} in its place"));
-    SceneError { span: command.when_span.clone(), fault }
+/// Reports a tick in a scene that is no recording, with the time in seconds as its remedy.
+fn refuse_tick(Scripted { at_s, .. }: &Scripted, command: &Command, top: &mut Table<'_>) {
+    let (tick, seconds) = (TICK.key, number(at_s.min(MAX_SECONDS)));
+    let what = format!("`{tick}` is for recordings: at another tick rate the motion would change");
+    let remedy = format!("write `{} = {seconds}` in its place", AT_S.key);
+    top.report_fault(command.when_span.clone(), what, remedy);
 }
 
 /// Reports every tolerance for a lane whose method takes none at that time, both in the race and in solo. Each

@@ -12,7 +12,7 @@ use super::fault::{FaultKind, SceneFault};
 use super::nearest::{nearest, offer};
 use super::wanted::{Field, Place, Wanted};
 use crate::sim::integrators::{METHODS, Method};
-use crate::sim::{IMPACTS, Impact, TickRate, impact};
+use crate::sim::{IMPACTS, Impact, TickRate};
 
 mod lists;
 mod named;
@@ -261,6 +261,18 @@ impl<'t> Table<'t> {
         hash
     }
 
+    /// Reads the table below this one at a key, with its faults.
+    pub(super) fn read_below<R>(
+        &mut self,
+        field: &Field,
+        read: impl FnOnce(&mut Table<'t>) -> R,
+    ) -> Option<R> {
+        let mut table = self.table(field)?;
+        let found = read(&mut table);
+        self.add_faults_of(table);
+        Some(found)
+    }
+
     /// Collects the faults of a table below this one.
     pub(super) fn add_faults_of(&mut self, row: Table<'t>) {
         self.below.extend(row.finish());
@@ -339,15 +351,26 @@ impl<'t> Table<'t> {
 
     /// Reads the id of a rule for impacts.
     pub(super) fn impact(&mut self, field: &Field) -> Option<&'static Impact> {
-        let id = self.text(field)?;
-        let found = impact(&id);
+        let all: Vec<_> = IMPACTS.iter().map(|impact| (impact.id, impact)).collect();
+        let what = |id: &str| format!("unknown rule {:?} in `{}`", clip(id), field.key);
+        self.named(field, what, &all)
+    }
+
+    /// Reads the name of one of `all`. `unknown` is the message about another name.
+    pub(super) fn named<T: Copy>(
+        &mut self,
+        field: &Field,
+        unknown: impl Fn(&str) -> String,
+        all: &[(&'static str, T)],
+    ) -> Option<T> {
+        let name = self.text(field)?;
+        let found = all.iter().find(|(known, _)| *known == name);
         if found.is_none() {
-            let known: Vec<_> = IMPACTS.iter().map(|impact| impact.id).collect();
-            let nearest = nearest(&id, known.iter().map(|id| (*id, *id)));
-            let what = format!("unknown rule {:?} in `{}`", clip(&id), field.key);
-            self.report_fault(self.span(field.key), what, offer(nearest, &known, '"'));
+            let known: Vec<&str> = all.iter().map(|(known, _)| *known).collect();
+            let nearest = nearest(&name, known.iter().map(|name| (*name, *name)));
+            self.report_fault(self.span(field.key), unknown(&name), offer(nearest, &known, '"'));
         }
-        found
+        found.map(|(_, value)| *value)
     }
 
     fn method_named(

@@ -4,7 +4,7 @@ use std::fmt;
 use std::ops::RangeInclusive;
 
 use super::nearest::listed;
-use crate::scene::CloudKind;
+use crate::scene::CloudShape;
 use crate::sim::TickRate;
 use crate::sim::bodies::{self, Pin};
 use crate::sim::law::Layout;
@@ -80,7 +80,7 @@ pub(super) enum Wanted {
     Plane,
     /// Two expressions.
     At,
-    /// The name of a [`CloudKind`].
+    /// The name of a [`CloudShape`].
     Clouds,
     /// The name of a [`Layout`].
     Layout,
@@ -236,7 +236,7 @@ impl fmt::Display for Wanted {
             Wanted::Springs => write!(f, "a list such as [{{ between = [0, 1] }}]"),
             Wanted::Spring => write!(f, "a spring in braces, such as {{ between = [0, 1] }}"),
             Wanted::Clouds => {
-                write!(f, "{}", listed(&CloudKind::ALL.map(CloudKind::name), '"', " or "))
+                write!(f, "{}", listed(&CloudShape::ALL.map(CloudShape::id), '"', " or "))
             }
             Wanted::Layout => {
                 write!(f, "{}", listed(&Layout::ALL.map(|(id, _)| id), '"', " or "))

@@ -7,7 +7,7 @@ use super::deck::Deck;
 use super::display::Motion;
 use super::instrument::Instrument;
 use super::viewer::Viewer;
-use crate::measure::cloud::{CloudKind, CloudRequest, CloudWorker, FoundCloud, NoCloud};
+use crate::measure::cloud::{CloudRequest, CloudWorker, FoundCloud, NoCloud};
 use crate::run::race::Interventions;
 
 /// Returns the clouds that the studio needs now, as a request to a [`CloudWorker`]. The clouds surround the lanes from
@@ -32,10 +32,7 @@ pub fn cloud_request(studio: &Studio) -> Option<CloudRequest> {
         lanes: deck.clouded_lanes().map(|entry| (entry, deck.spec(entry))).collect(),
         tick_hz,
         choice,
-        tick: match choice.kind {
-            CloudKind::Shape(_) => (seconds * f64::from(tick_hz)).round() as u64,
-            CloudKind::Section => 0,
-        },
+        tick: (seconds * f64::from(tick_hz)).round() as u64,
         in_time: deck.running(),
         changes,
     })

@@ -53,10 +53,9 @@ fn is_alike(a: &Scene, b: &Scene) -> bool {
 }
 
 /// Puts the open scene on the list as the file at `path`.
-pub fn list_as_file(deck: &mut Deck, viewer: &mut Viewer, path: &Path) {
+pub fn list_as_file(deck: &mut Deck, path: &Path) {
     let index = deck.scene_list.add_or_replace(path, deck.scene().clone());
     deck.scene_list.set_open(Some(index));
-    tell_outdated(deck, viewer);
 }
 
 /// Opens a scene from the file at `path`, and puts it on the list.
@@ -64,7 +63,6 @@ pub fn open_file(studio: &mut Studio, path: &Path, scene: Scene) {
     studio.loops = None;
     let index = studio.deck.scene_list.add_or_replace(path, scene);
     open(&mut studio.deck, &mut studio.viewer, index);
-    tell_outdated(&mut studio.deck, &mut studio.viewer);
 }
 
 /// Adds a person's own method to a race in the open scene, which restarts. An undo brings back the previous run.
@@ -86,16 +84,6 @@ pub fn race_own_method(studio: &mut Studio, lane: LaneSpec) {
     deck.openings += 1;
     (viewer.findings, viewer.dialog) = (None, None);
     viewer.set_notice(format!("{}: {}", method.id, method.about));
-}
-
-/// Warns about a scene file whose commands use the deprecated key `tick`.
-fn tell_outdated(deck: &mut Deck, viewer: &mut Viewer) {
-    if deck.scene().outdated.is_some() {
-        let name = deck.scene_name();
-        viewer.set_notice(format!(
-            "{name}: `tick` in a command is read for this release only; write `at_s`, in seconds"
-        ));
-    }
 }
 
 /// Opens the spring that a person has described under the recommended method, in solo mode and running, and shows
@@ -270,10 +258,10 @@ fn run_again(deck: &mut Deck, viewer: &mut Viewer, index: usize, tick: u64) {
 
 /// Shows the clouds with which the scene opens, if any, in place of the stage.
 pub fn show_clouds_of_scene(deck: &mut Deck, viewer: &mut Viewer) {
-    let Some(kind) = deck.scene().clouds else { return };
+    let Some(shape) = deck.scene().clouds else { return };
     let display = &mut viewer.preferences.display;
     (display.instrument, display.enlarged) = (Instrument::Cloud, true);
-    display.cloud.kind = kind;
+    display.cloud.shape = shape;
 }
 
 pub(super) fn open_beside(deck: &mut Deck, viewer: &mut Viewer, step: Step) {

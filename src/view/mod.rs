@@ -13,8 +13,6 @@ mod frame;
 mod gpu;
 mod gpu_executor;
 mod keyboard;
-#[cfg(test)]
-mod legibility;
 mod lines;
 mod meshes;
 mod offscreen_renderer;
@@ -28,8 +26,6 @@ mod screen_transform;
 mod shapes;
 mod stage;
 mod strokes;
-#[cfg(test)]
-mod testing;
 mod theme;
 mod touch;
 
@@ -65,4 +61,11 @@ pub fn spoken(studio: &crate::studio::Studio) -> String {
 /// The plots of the selected instrument as an SVG file; `None` if it has none.
 pub fn instrument_svg(studio: &crate::studio::Studio) -> Option<String> {
     panels::svg(studio)
+}
+
+/// Whole frames, and what the tests of this room share.
+#[cfg(test)]
+mod tests {
+    mod legibility;
+    pub(in crate::view) mod testing;
 }

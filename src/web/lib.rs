@@ -8,8 +8,6 @@
 mod address;
 mod canvas;
 mod clipboard;
-#[cfg(test)]
-mod contrast;
 mod driver;
 mod files;
 mod frame;
@@ -127,4 +125,9 @@ impl log::Log for Console {
     }
 
     fn flush(&self) {}
+}
+
+#[cfg(test)]
+mod tests {
+    mod contrast;
 }

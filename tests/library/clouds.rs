@@ -8,8 +8,8 @@ use rayon::ThreadPoolBuilder;
 use regatta::look::density_picture;
 use regatta::look::palette::Theme;
 use regatta::measure::cloud::{
-    Cloud, CloudBody, CloudBorder, CloudChoice, CloudKind, CloudPicture, CloudShape, CloudStart,
-    CloudWorker, Density, NoCloud, PlaneView,
+    Cloud, CloudBody, CloudBorder, CloudChoice, CloudPicture, CloudShape, CloudStart, CloudWorker,
+    Density, NoCloud, PlaneView,
 };
 use regatta::prelude::Options;
 use regatta::scene::{Action, LaneSpec, Scene, Scripted};
@@ -224,14 +224,14 @@ fn the_number_of_threads_changes_no_count_of_a_picture() {
 }
 
 /// A race that shows the clouds of its lanes.
-fn race_of(scene: &str, methods: &[&str], kind: CloudKind) -> Studio {
+fn race_of(scene: &str, methods: &[&str], shape: CloudShape) -> Studio {
     let plain = |id: &&str| LaneSpec::plain(method(id).unwrap());
     let lanes = methods.iter().map(plain).collect();
     let mut studio =
         Studio::new(edited(&Scene::built_in(scene).unwrap(), |scene| scene.lanes = lanes));
     studio.apply(StageCommand::ToggleRace);
     studio.apply(StageCommand::Instrument(Instrument::Cloud));
-    studio.apply(RunCommand::Cloud(CloudChoice { kind, points: 1500 }));
+    studio.apply(RunCommand::Cloud(CloudChoice { shape, points: 1500 }));
     studio
 }
 
@@ -251,7 +251,7 @@ fn shown(picture: &CloudPicture) -> String {
 fn a_cloud_does_not_depend_on_the_path_to_its_tick() {
     // The second has a memory; the third has one too and steps its points one by one.
     let methods = ["rk4", "adams-bashforth-2", "dormand-prince-54", "implicit-euler"];
-    let new = || race_of("liouville", &methods, CloudKind::default());
+    let new = || race_of("liouville", &methods, CloudShape::default());
     let at = |ticks: u64| {
         let mut studio = new();
         (0..ticks).for_each(|_| studio.tick());
@@ -275,7 +275,7 @@ fn a_cloud_does_not_depend_on_the_path_to_its_tick() {
 
 #[test]
 fn late_clouds_drop_points_and_regain_them_when_paused() {
-    let mut studio = race_of("liouville", &["rk4", "midpoint"], CloudKind::default());
+    let mut studio = race_of("liouville", &["rk4", "midpoint"], CloudShape::default());
     studio.apply(RunCommand::Cloud(CloudChoice { points: 10_000, ..CloudChoice::default() }));
     let mut worker = CloudWorker::default();
     let mut points = BTreeSet::new();
@@ -302,7 +302,7 @@ fn late_clouds_drop_points_and_regain_them_when_paused() {
 
 #[test]
 fn the_axes_of_a_picture_fit_its_clouds() {
-    let mut studio = race_of("liouville", &["rk4"], CloudKind::default());
+    let mut studio = race_of("liouville", &["rk4"], CloudShape::default());
     let picture = picture(&mut studio, &mut CloudWorker::default());
     let border = picture.border.concat();
     let reach = [0, 1].map(|axis| {
@@ -316,7 +316,7 @@ fn the_axes_of_a_picture_fit_its_clouds() {
 
 #[test]
 fn clouds_restart_after_a_change_and_those_of_the_same_lanes_stay_until_then() {
-    let mut studio = race_of("liouville", &["rk4", "explicit-euler"], CloudKind::default());
+    let mut studio = race_of("liouville", &["rk4", "explicit-euler"], CloudShape::default());
     studio.apply(StageCommand::ToggleRace);
     let mut worker = CloudWorker::default();
     (0..6).for_each(|_| studio.tick());
@@ -405,8 +405,8 @@ fn the_exact_cloud_follows_the_exact_body_through_kicks_and_edits() {
     let script = Scripted::of_ticks(scene.tick_hz, [(10, Action::Kick(1.0)), (20, set(2.0))]);
     let mut studio = Studio::new(edited(&scene, |scene| scene.script = script));
     studio.apply(StageCommand::Instrument(Instrument::Cloud));
-    let disc = CloudKind::Shape(CloudShape::Disc);
-    studio.apply(RunCommand::Cloud(CloudChoice { kind: disc, points: 100 }));
+    let disc = CloudShape::Disc;
+    studio.apply(RunCommand::Cloud(CloudChoice { shape: disc, points: 100 }));
     let mut worker = CloudWorker::default();
     (0..30).for_each(|_| studio.tick());
     for (tick, started) in [(6, 0), (16, 10), (26, 20), (36, 30), (26, 20)] {
@@ -430,7 +430,7 @@ fn the_exact_cloud_follows_the_exact_body_through_kicks_and_edits() {
 #[test]
 fn lanes_share_the_axes_of_their_clouds_and_lost_points_are_counted() {
     let methods = ["explicit-euler", "semi-implicit-euler", "velocity-verlet"];
-    let mut studio = race_of("stiff", &methods, CloudKind::default());
+    let mut studio = race_of("stiff", &methods, CloudShape::default());
     (0..240).for_each(|_| studio.tick());
     let picture = picture(&mut studio, &mut CloudWorker::default());
     assert_eq!(picture.lanes.iter().map(|lane| lane.entry).collect::<Vec<_>>(), [0, 1, 2]);
@@ -444,28 +444,12 @@ fn lanes_share_the_axes_of_their_clouds_and_lost_points_are_counted() {
 
 #[test]
 fn a_body_of_several_coordinates_has_no_cloud_with_the_reason() {
-    let studio = race_of("orbit", &["rk4"], CloudKind::default());
+    let studio = race_of("orbit", &["rk4"], CloudShape::default());
     assert!(cloud_request(&studio).is_none());
     let why = cloud_refusal(&studio.deck, &studio.viewer).unwrap().to_string();
     assert!(why.contains("satellite has 2"), "{why}");
-    let studio = race_of("spring", &["rk4"], CloudKind::default());
+    let studio = race_of("spring", &["rk4"], CloudShape::default());
     assert!(cloud_refusal(&studio.deck, &studio.viewer).is_none());
-}
-
-#[test]
-fn a_section_has_every_start_at_every_crossing_at_any_tick() {
-    let mut studio = race_of("kicked-rotor", &["semi-implicit-euler"], CloudKind::Section);
-    let mut worker = CloudWorker::default();
-    let first = picture(&mut studio, &mut worker);
-    assert_eq!(first.section.as_deref(), Some("at each tick"));
-    let lane = &first.lanes[0];
-    // The momentum of the sea and the islands that are in sight is that of most points.
-    let points = lane.density.counts().iter().map(|&n| u64::from(n)).sum::<u64>();
-    assert_eq!(lane.words, "400 starts, 3000 ticks each");
-    assert!((400_000..=1_200_000).contains(&points), "{points}");
-    let first = shown(first);
-    (0..30).for_each(|_| studio.tick());
-    assert!(shown(picture(&mut studio, &mut worker)) == first);
 }
 
 #[test]

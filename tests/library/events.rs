@@ -132,31 +132,35 @@ const IN_TICKS: &str = "title = 'x'\ntick_hz = 60\nseconds = 9\nmethods = ['rk4'
     [[command]]\ntick = 125\nkick = 1\n";
 
 #[test]
-fn the_tick_key_is_read_with_a_warning_and_saved_as_seconds() {
-    let scene = Scene::parse("old.toml", IN_TICKS).unwrap();
-    let at_s = |scene: &Scene| scene.script.iter().map(|row| row.at_s).collect::<Vec<_>>();
-    assert_eq!(at_s(&scene), [1.5, 2.0, 2.5]);
-    let outdated = scene.outdated.as_ref().expect("it says ticks");
-    let said: Vec<String> = outdated.messages().collect();
-    assert_eq!(said.len(), 3);
+fn the_tick_key_is_refused_in_a_scene_with_the_seconds_to_write() {
+    let said = Scene::parse("old.toml", IN_TICKS).unwrap_err().to_string();
+    assert_eq!(said.lines().count(), 3);
     assert_eq!(
-        said[2],
-        "old.toml:16:8: `tick` in a scene is read in this release only: at another tick \
-         rate the motion would change; write `at_s = 2.5` in its place"
+        said.lines().last().unwrap(),
+        "old.toml:16:8: `tick` is for recordings: at another tick rate the motion would change; \
+         write `at_s = 2.5` in its place"
     );
+    let text = ["1.5", "2", "2.5"]
+        .iter()
+        .zip(["90", "120", "125"])
+        .fold(IN_TICKS.to_owned(), |text, (at_s, tick)| {
+            text.replace(&format!("\ntick = {tick}"), &format!("\nat_s = {at_s}"))
+        });
+    let scene = Scene::parse("new.toml", &text).unwrap();
+    let at_s = |scene: &Scene| scene.script.iter().map(|row| row.at_s).collect::<Vec<_>>();
     // At another rate, at the same times.
     let journal = Journal::of_script(&scene.script, 20);
     assert_eq!(journal.rows().iter().map(|row| row.tick).collect::<Vec<_>>(), [30, 40, 45]);
     let faster = edited(&scene, |scene| scene.tick_hz = 120.into());
     for text in [faster.to_toml(), faster.to_saved_toml()] {
         let again = Scene::parse("new.toml", &text).unwrap();
-        assert!(again.outdated.is_none() && text.contains("at_s = 2.5"), "{text}");
+        assert!(text.contains("at_s = 2.5"), "{text}");
         assert_eq!(at_s(&again), at_s(&faster));
     }
 }
 
 #[test]
-fn a_recording_uses_ticks_and_is_read_without_a_warning() {
+fn a_recording_uses_ticks_and_a_scene_without_checks_may_not() {
     let mut studio = Studio::new(Scene::built_in("helm").unwrap());
     (0..12).for_each(|_| studio.tick());
     studio.apply(StageCommand::TickHz(60.into()));
@@ -167,8 +171,7 @@ fn a_recording_uses_ticks_and_is_read_without_a_warning() {
     // The rate, and 0.6 s later, at 60 Hz, the rudder.
     assert_eq!(ticks[..2], ["tick = 12", "tick = 48"], "{text}");
     let scene = Scene::parse("run.toml", &text).unwrap();
-    assert!(scene.outdated.is_none());
     assert_eq!(scene.to_saved_toml(), text);
     let bare = text.split_once("\n[[check]]").unwrap().0;
-    assert!(Scene::parse("run.toml", bare).unwrap().outdated.is_some(), "nothing repeats it");
+    assert!(Scene::parse("run.toml", bare).is_err(), "nothing repeats it");
 }

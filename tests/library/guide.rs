@@ -1,7 +1,7 @@
 //! The guide: exactly its keys complete every stop, and its claims are true.
 
 use regatta::loops::loop_lab::{LoopCommand, LoopLab};
-use regatta::measure::cloud::{CloudChoice, CloudKind, CloudWorker};
+use regatta::measure::cloud::{CloudChoice, CloudShape, CloudWorker};
 use regatta::measure::{Judge, OneStep, Outcome, Verdict};
 use regatta::run::past::Quantity;
 use regatta::run::{METRICS, Race};
@@ -160,8 +160,8 @@ fn the_area_of_the_pendulum_cloud_matches_the_guide() {
     let mut studio =
         lab_after_prediction(STOPS.iter().position(|s| s.instrument == Instrument::Cloud).unwrap());
     studio.apply(StageCommand::ToggleRace);
-    let kind = CloudKind::default();
-    studio.apply(RunCommand::Cloud(CloudChoice { kind, points: 10_000 }));
+    let shape = CloudShape::default();
+    studio.apply(RunCommand::Cloud(CloudChoice { shape, points: 10_000 }));
     // 1.25 s.
     (0..15).for_each(|_| studio.tick());
     complete_clouds(&mut studio, &mut CloudWorker::default(), || false);
@@ -527,7 +527,7 @@ fn lanes_with_ported_settings_stay_within_8_percent_of_the_ghost() {
 fn explicit_euler_never_shrinks_the_cloud_of_the_guide_below_its_start() {
     let mut studio =
         lab_after_prediction(STOPS.iter().position(|s| s.instrument == Instrument::Cloud).unwrap());
-    studio.apply(RunCommand::Cloud(CloudChoice { kind: CloudKind::default(), points: 10_000 }));
+    studio.apply(RunCommand::Cloud(CloudChoice { shape: CloudShape::default(), points: 10_000 }));
     let mut worker = CloudWorker::default();
     let mut areas = Vec::new();
     for _ in 0..6 {

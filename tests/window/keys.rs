@@ -62,6 +62,9 @@ pub(crate) fn every_key_performs_its_command_from_the_table() {
             Command::View(ViewCommand::AskForPath),
             Command::View(ViewCommand::AskForRun),
             Command::View(ViewCommand::AskForSpring),
+            Command::View(ViewCommand::AskForLines),
+            // Digits open figures from its list.
+            Command::View(ViewCommand::ToggleFigures),
             // It opens a scene, and lets time run.
             Command::View(ViewCommand::ToggleGuide),
             Command::View(ViewCommand::Escape),

@@ -34,9 +34,9 @@ pub(crate) fn the_mouse_works_the_panels_at_every_scale() {
         desk.press("space");
         desk.titled("Regatta - spring - Semi-implicit Euler - 60 Hz (paused)");
         open_scene_menu(&desk, scale);
-        // The third scene, below the own spring, the comparison and the name of its group: so long a list starts at the
+        // The third scene, below four other lines and the name of its group: so long a list starts at the
         // top of so low a window.
-        click(50, 137);
+        click(50, 197);
         desk.titled("Regatta - ship - Explicit Euler - 2 Hz (paused)");
         desk.quit();
     }

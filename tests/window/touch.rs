@@ -190,15 +190,15 @@ pub(crate) fn dragging_the_tick_rate_holds_time_and_is_undone_in_one_step() {
     let mut twin = Twin::new(Studio::new(Scene::built_in("spring").unwrap()));
     twin.studio.viewer.preferences.display.measure = false;
     let scale = twin.slider("tick rate 60 Hz");
-    // Half a handle is left at each end.
-    let line = scale.shrink2(egui::vec2(0.0, 11.0));
-    let y = |hz: f32| line.bottom() - line.height() * (hz / 5.0).ln() / 200_f32.ln();
-    let x = (line.left() + 16.0).round();
+    // There is room beside the ends, and for numbers below the line.
+    let line = scale.shrink2(egui::vec2(46.0, 0.0));
+    let x = |hz: f32| line.left() + line.width() * (hz / 5.0).ln() / 200_f32.ln();
+    let y = (line.bottom() - 30.0).round();
     let slowly = |hz: f32, then: &str| {
-        let at = y(hz).round();
+        let at = x(hz).round();
         let aside = at + 9.0;
-        desk.xdotool(&format!("mousemove --window WINDOW {x} {aside} sleep 0.3"));
-        let words = format!("mousemove --window WINDOW {x} {at} sleep 0.4 {then}");
+        desk.xdotool(&format!("mousemove --window WINDOW {aside} {y} sleep 0.3"));
+        let words = format!("mousemove --window WINDOW {at} {y} sleep 0.4 {then}");
         desk.xdotool(words.trim_end());
     };
     until("a run", || (desk.screenshot().0 > 30).then_some(()));

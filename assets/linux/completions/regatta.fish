@@ -405,7 +405,6 @@ gif\t'One GIF, each frame with its own palette'
 y4m\t'YUV4MPEG2, for a video encoder'
 sheet\t'One picture, time across, lanes down'"
 complete -c regatta -n "__fish_regatta_using_subcommand capture" -l race -d 'Race all methods of the scene at once'
-complete -c regatta -n "__fish_regatta_using_subcommand capture" -l section -d 'Show a Poincaré section in the instrument cloud'
 complete -c regatta -n "__fish_regatta_using_subcommand capture" -l force -d 'Replace the frames in DIR, or FILE'
 complete -c regatta -n "__fish_regatta_using_subcommand capture" -s h -l help -d 'Print help (see more with \'--help\')'
 complete -c regatta -n "__fish_regatta_using_subcommand verify" -l report -d 'Also write the result to FILE, as junit or json' -r

@@ -11,40 +11,19 @@ const BORDER_SCOUTS: usize = 90;
 /// Minimum width of the axes at any moment, relative to the exact cloud at its widest.
 const NARROWEST: f64 = 0.25;
 
-/// Number of moments that the axes in a studio take into account.
+/// Number of moments that the axes take into account, spread evenly over the ticks.
 const MOMENTS: u64 = 60;
-/// Maximum number of ticks that the axes in a studio take into account, which is at most a second of work.
+/// Maximum time (s) and number of ticks that the axes take into account, which is at most a second of work.
+const MAX_S: f64 = 30.0;
 const MAX_TICKS: u64 = 3000;
+/// Growth of the exact cloud up to which the axes show it. On larger axes, the initial cloud would be a speck.
+const SPREAD: f64 = 10.0;
 /// Maximum distance of a point of a lone cloud beyond the cloud's middle half, in widths of that half.
 const MAX_STRAY_WIDTHS: f64 = 3.0;
 /// Largest widths by which other clouds may widen the axes of a run, and the axes at one moment, relative to the width
 /// of the exact cloud.
 const MAX_WIDENING: f64 = 0.1;
 const MAX_WIDENING_AT_ONCE: f64 = 0.25;
-
-/// The moments that a picture covers, which are `times` moments spread evenly over the first `ticks` of a run.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct ShownTicks {
-    /// The last tick.
-    pub(super) ticks: u64,
-    /// Number of moments.
-    pub(super) times: u64,
-    /// Size of the exact cloud relative to the start above which the axes ignore the exact cloud.
-    pub(super) spread: f64,
-}
-
-impl ShownTicks {
-    /// Longest run that the axes take into account, in seconds.
-    pub(super) const MAX_S: f64 = 30.0;
-}
-
-impl From<u64> for ShownTicks {
-    /// Returns the moments for clouds in a studio, in a run of `ticks`.
-    fn from(ticks: u64) -> Self {
-        let ticks = ticks.min(MAX_TICKS);
-        Self { ticks, times: ticks.min(MOMENTS), spread: f64::INFINITY }
-    }
-}
 
 /// The axes of a run of clouds.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -56,7 +35,7 @@ pub(super) struct CloudAxes {
 }
 
 impl CloudAxes {
-    /// Finds the axes for these lanes.
+    /// Finds the axes for these lanes in a run of this many seconds.
     ///
     /// # Errors
     /// Fails as [`Cloud::new`] does.
@@ -65,18 +44,20 @@ impl CloudAxes {
         start: CloudStart,
         specs: &[LaneSpec],
         tick_hz: TickRate,
-        shown: ShownTicks,
+        seconds: f64,
     ) -> Result<Self, NoCloud> {
         let mut border = CloudBorder::exact_of_points(BORDER_SCOUTS, of, start, tick_hz)?;
         let scouts = specs.iter().map(|spec| Cloud::new(of, spec, start, SCOUTS, tick_hz));
         let mut scouts = scouts.collect::<Result<Vec<_>, _>>()?;
         let is_angle = of.body.is_angle(0);
         let at_start = border.lines().concat();
-        let largest = [0, 1].map(|i| shown.spread * PlaneView::width(&at_start, i));
+        let largest = [0, 1].map(|i| SPREAD * PlaneView::width(&at_start, i));
         let (mut exact, mut others) = (Vec::new(), Vec::new());
         let mut widest = [0.0_f64; 2];
-        for moment in 1..=shown.times {
-            let tick = shown.ticks * moment / shown.times;
+        let ticks = ((seconds.min(MAX_S) * f64::from(tick_hz)) as u64).clamp(1, MAX_TICKS);
+        let moments = ticks.min(MOMENTS);
+        for moment in 1..=moments {
+            let tick = ticks * moment / moments;
             border.go_to(tick);
             let now = border.lines().concat();
             let wide = [0, 1].map(|i| PlaneView::width(&now, i));

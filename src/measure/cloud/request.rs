@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::{CloudBody, CloudKind, CloudShape, Density, NoCloud, PlaneView, USUAL_POINTS};
+use super::{CloudShape, Density, NoCloud, PlaneView, USUAL_POINTS};
 use crate::run::race::Interventions;
 use crate::scene::{LaneSpec, Scene};
 use crate::sim::TickRate;
@@ -23,21 +23,15 @@ const ALONE: u64 = 30;
 /// A person's choice of clouds.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CloudChoice {
-    /// The kind of cloud.
-    pub kind: CloudKind,
-    /// Number of points, for a shape.
+    /// The shape of the starts.
+    pub shape: CloudShape,
+    /// Number of points.
     pub points: usize,
-}
-
-impl Default for CloudKind {
-    fn default() -> Self {
-        Self::Shape(CloudShape::default())
-    }
 }
 
 impl Default for CloudChoice {
     fn default() -> Self {
-        Self { kind: CloudKind::default(), points: USUAL_POINTS }
+        Self { shape: CloudShape::default(), points: USUAL_POINTS }
     }
 }
 
@@ -59,19 +53,6 @@ pub struct CloudRequest {
     pub(crate) in_time: bool,
 }
 
-/// A prepared request.
-#[derive(Clone, Copy)]
-pub(super) struct Request<'a> {
-    /// The body at the start.
-    pub(super) of: CloudBody<'a>,
-    pub(super) lanes: &'a [(usize, LaneSpec)],
-    pub(super) tick_hz: TickRate,
-    /// Length of the run in seconds.
-    pub(super) seconds: f64,
-    /// Time of the start in seconds.
-    pub(super) t: f64,
-}
-
 impl CloudRequest {
     /// Whether both requests are for the same run of clouds, at any tick.
     pub fn is_alike(&self, other: &Self) -> bool {
@@ -90,7 +71,7 @@ impl CloudRequest {
         Arc::ptr_eq(&self.scene, &other.scene)
             && self.body == other.body
             && self.lanes == other.lanes
-            && self.choice.kind == other.choice.kind
+            && self.choice.shape == other.choice.shape
     }
 
     /// Returns the tick of the clouds.
@@ -131,12 +112,10 @@ pub struct FoundCloud {
 /// The clouds of all lanes at a tick.
 #[derive(Clone, Debug)]
 pub struct CloudPicture {
-    /// Ticks since the start of the clouds; 0 for a section.
+    /// Ticks since the start of the clouds.
     pub tick: u64,
-    /// Number of points per cloud, which is less than the chosen number if the clouds fell behind; 0 for a section.
+    /// Number of points per cloud, which is less than the chosen number if the clouds fell behind.
     pub points: usize,
-    /// Description of the moments at which a section samples its points; `None` for a cloud.
-    pub section: Option<String>,
     /// The part of the plane in the density images.
     pub view: PlaneView,
     /// Border of the exact cloud.
@@ -156,7 +135,7 @@ pub struct LaneCloud {
     pub density: Arc<Density>,
     /// Number of points that blew up and are left out.
     pub lost: usize,
-    /// Number of remaining points beyond the axes; 0 for a section.
+    /// Number of remaining points beyond the axes.
     pub hidden: usize,
     /// Number of the `hidden` points on each side: left, right, below, above.
     pub beyond: [usize; 4],

@@ -6,11 +6,10 @@
 
 use std::sync::Arc;
 
-use super::request::{GRID, Request, cost};
-use super::section::SectionRun;
+use super::request::{GRID, cost};
 use super::{
-    Cloud, CloudAxes, CloudBody, CloudBorder, CloudKind, CloudPicture, CloudRequest, CloudShape,
-    CloudStart, Density, FoundCloud, LaneCloud, NoCloud, ShownTicks,
+    Cloud, CloudAxes, CloudBody, CloudBorder, CloudPicture, CloudRequest, CloudStart, Density,
+    FoundCloud, LaneCloud, NoCloud,
 };
 use crate::run::race::Race;
 use crate::scene::LaneSpec;
@@ -20,9 +19,6 @@ use crate::sim::TickRate;
 const SAMPLES: u64 = 200;
 /// Enlargement of a studio's clouds, which would otherwise look small.
 const REACH: f64 = 2.0;
-
-/// Growth of the exact cloud up to which the axes show it. On larger axes, the initial cloud would be a speck.
-const SPREAD: f64 = 10.0;
 
 /// A run that is more seconds behind than this, and does not catch up soon, continues with a tenth of its points. Their
 /// number does not fall below the minimum.
@@ -41,7 +37,7 @@ const SEEN: usize = 1_000;
 pub struct CloudWorker {
     request: Option<Arc<CloudRequest>>,
     /// The run of the last request.
-    run: Option<Result<CloudInProgress, NoCloud>>,
+    run: Option<Result<Box<CloudRun>, NoCloud>>,
     is_done: bool,
     /// Stride through the points, of which every n-th is stepped.
     stride: usize,
@@ -77,7 +73,7 @@ impl CloudWorker {
 
     /// Returns the stride to use from now on, when `new` replaces the request for the tick `old`.
     fn stride_for(&mut self, old: u64, new: &CloudRequest) -> usize {
-        let Some(Ok(CloudInProgress::Clouds(run))) = &self.run else { return self.stride };
+        let Some(Ok(run)) = &self.run else { return self.stride };
         if !new.in_time {
             self.looked = None;
             return 1;
@@ -103,14 +99,9 @@ impl CloudWorker {
     /// Steps some ticks towards the requested one, and returns the picture if it is due.
     pub fn work(&mut self) -> Option<FoundCloud> {
         let request = self.request.as_ref().filter(|_| !self.is_done)?;
-        let run = self.run.get_or_insert_with(|| CloudInProgress::new(request, self.stride));
+        let run = self.run.get_or_insert_with(|| CloudRun::new(request, self.stride).map(Box::new));
         let picture = match run {
-            Ok(CloudInProgress::Section(run)) => {
-                run.work();
-                self.is_done = run.is_done();
-                Ok(run.picture())
-            }
-            Ok(CloudInProgress::Clouds(run)) => {
+            Ok(run) => {
                 run.work(request.tick);
                 self.is_done = run.tick == request.tick;
                 let is_shown = self.is_done || run.tick.is_multiple_of(run.sampled_every);
@@ -145,40 +136,6 @@ fn initial_stride(request: &CloudRequest) -> usize {
     stride
 }
 
-/// A cloud or a section in progress.
-enum CloudInProgress {
-    Clouds(Box<CloudRun>),
-    Section(SectionRun),
-}
-
-impl CloudInProgress {
-    fn new(request: &CloudRequest, stride: usize) -> Result<Self, NoCloud> {
-        let &CloudRequest { ref scene, ref changes, body, ref lanes, tick_hz, choice, .. } =
-            request;
-        let scene = changes.applied_to(scene).of_one_body(body);
-        let mut race = Race::new(&scene, []).with_script(&scene.script);
-        race.catch_up(&mut ());
-        let request = Request {
-            of: CloudBody {
-                name: &scene.bodies[0].name,
-                kind: &scene.bodies[0].kind,
-                body: &*race.truth().bodies()[0].stepper,
-            },
-            lanes,
-            tick_hz,
-            seconds: scene.seconds,
-            t: changes.starts_at_s(),
-        };
-        match choice.kind {
-            CloudKind::Shape(shape) => {
-                let points = choice.points / stride;
-                CloudRun::new(request, shape, points).map(|run| Self::Clouds(Box::new(run)))
-            }
-            CloudKind::Section => SectionRun::new(request).map(Self::Section),
-        }
-    }
-}
-
 /// A cloud with its area at each sampled tick up to now.
 struct SampledCloud<C> {
     cloud: C,
@@ -201,10 +158,22 @@ struct CloudRun {
 }
 
 impl CloudRun {
-    fn new(request: Request<'_>, shape: CloudShape, points: usize) -> Result<Self, NoCloud> {
-        let Request { of, lanes, tick_hz, seconds, t } = request;
-        let about = CloudStart::about(of, shape, None)?;
-        let start = CloudStart { t, reach: about.reach.map(|reach| REACH * reach), ..about };
+    /// Starts the clouds of a request, with one of `stride` points each.
+    fn new(request: &CloudRequest, stride: usize) -> Result<Self, NoCloud> {
+        let &CloudRequest { ref scene, ref changes, body, ref lanes, tick_hz, choice, .. } =
+            request;
+        let points = choice.points / stride;
+        let scene = changes.applied_to(scene).of_one_body(body);
+        let mut race = Race::new(&scene, []).with_script(&scene.script);
+        race.catch_up(&mut ());
+        let of = CloudBody {
+            name: &scene.bodies[0].name,
+            kind: &scene.bodies[0].kind,
+            body: &*race.truth().bodies()[0].stepper,
+        };
+        let about = CloudStart::about(of, choice.shape, None)?;
+        let (t, reach) = (changes.starts_at_s(), about.reach.map(|reach| REACH * reach));
+        let start = CloudStart { t, reach, ..about };
         Cloud::find_room(points, lanes.iter().map(|(_, spec)| spec))?;
         let new = |(entry, spec): &(usize, LaneSpec)| {
             let cloud = Cloud::new(of, spec, start, points, tick_hz)?.rewindable();
@@ -212,11 +181,9 @@ impl CloudRun {
         };
         let runs = lanes.iter().map(new).collect::<Result<Vec<_>, NoCloud>>()?;
         let border = CloudBorder::exact(of, start, tick_hz)?.rewindable();
-        let ticks = |seconds: f64| ((seconds * f64::from(tick_hz)) as u64).max(1);
         let specs: Vec<LaneSpec> = lanes.iter().map(|(_, spec)| *spec).collect();
-        let long = ticks(seconds.min(ShownTicks::MAX_S));
-        let shown = ShownTicks { spread: SPREAD, ..long.into() };
-        let axes = CloudAxes::of_run(of, start, &specs, tick_hz, shown)?;
+        let axes = CloudAxes::of_run(of, start, &specs, tick_hz, scene.seconds)?;
+        let ticks = ((scene.seconds * f64::from(tick_hz)) as u64).max(1);
         let work: u64 = specs.iter().map(cost).sum();
         let mut run = Self {
             lanes: runs,
@@ -226,7 +193,7 @@ impl CloudRun {
             points,
             tick_hz,
             tick: 0,
-            sampled_every: ticks(seconds).div_ceil(SAMPLES),
+            sampled_every: ticks.div_ceil(SAMPLES),
             part: (WORK / (work * points as u64)).max(1),
         };
         run.sample();
@@ -287,7 +254,6 @@ impl CloudRun {
         CloudPicture {
             tick: self.tick,
             points: self.points,
-            section: None,
             view,
             exact: self.samples(&self.exact.areas, self.exact.cloud.area_ratio()),
             lanes: self.lanes.iter().map(lane).collect(),

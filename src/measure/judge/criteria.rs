@@ -7,10 +7,9 @@ use crate::measure::by_energy::follow_energy;
 use crate::measure::change::bounded;
 use crate::measure::criterion::{Criterion, FREQUENCY_TOLERANCE, TOLERANCE, VISIBLE};
 use crate::measure::modes::{Modes, TooMuch};
+use crate::measure::pace::Pace;
 use crate::measure::run::{JudgedRun, Until, follow};
 use crate::measure::truth::BodyTruth;
-use crate::scene::LaneSpec;
-use crate::sim::TickRate;
 
 /// Whether a lane meets a [`Criterion`].
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -48,10 +47,9 @@ impl Judge {
     pub(in crate::measure) async fn meets(
         &self,
         criterion: Criterion,
-        spec: LaneSpec,
-        tick_hz: TickRate,
+        pace: Pace,
     ) -> CriterionFinding {
-        if !self.has_ticks(tick_hz) {
+        if !self.has_ticks(pace.tick_hz) {
             return CriterionFinding::Unknown;
         }
         let mut evaluations_per_s = 0.0;
@@ -60,11 +58,11 @@ impl Judge {
             let met = match criterion {
                 _ if truth.bounces() => {
                     let most = criterion.outcome();
-                    self.bounces_within(truth, spec, tick_hz, |found| found.outcome() <= most).await
+                    self.bounces_within(truth, pace, |found| found.outcome() <= most).await
                 }
-                Criterion::Bounded => self.is_bounded(truth, spec, tick_hz).await,
-                Criterion::LooksRight => self.looks_right(body, spec, tick_hz, None).await,
-                Criterion::Accurate => self.is_accurate(truth, spec, tick_hz).await,
+                Criterion::Bounded => self.is_bounded(truth, pace).await,
+                Criterion::LooksRight => self.looks_right(body, pace, None).await,
+                Criterion::Accurate => self.is_accurate(truth, pace).await,
             };
             match met {
                 Ok(evaluations) => evaluations_per_s += evaluations,
@@ -76,6 +74,7 @@ impl Judge {
             return CriterionFinding::Unknown;
         }
         // A method with memory starts with a few extra evaluations, which are not part of its long-run cost.
+        let Pace { spec, tick_hz } = pace;
         let steady = spec.method.evaluations_per_tick(spec.substeps).map(|evaluations| {
             f64::from(evaluations) * f64::from(tick_hz) * self.truths.len() as f64
         });
@@ -86,28 +85,22 @@ impl Judge {
     pub(in crate::measure) async fn misses(
         &self,
         criterion: Criterion,
-        spec: LaneSpec,
-        tick_hz: TickRate,
+        pace: Pace,
     ) -> Option<CriterionFinding> {
-        if self.is_met_by_modes(criterion, spec, tick_hz).await {
+        if self.is_met_by_modes(criterion, pace).await {
             return None;
         }
-        let finding = self.meets(criterion, spec, tick_hz).await;
+        let finding = self.meets(criterion, pace).await;
         Some(finding).filter(|finding| !finding.holds())
     }
 
     /// Whether the modes of every body prove that the body meets a criterion.
-    async fn is_met_by_modes(
-        &self,
-        criterion: Criterion,
-        spec: LaneSpec,
-        tick_hz: TickRate,
-    ) -> bool {
-        if criterion == Criterion::Accurate || !self.has_ticks(tick_hz) {
+    async fn is_met_by_modes(&self, criterion: Criterion, pace: Pace) -> bool {
+        if criterion == Criterion::Accurate || !self.has_ticks(pace.tick_hz) {
             return false;
         }
         for truth in &self.truths {
-            let Ok(Some(modes)) = Modes::of(truth, spec, tick_hz).await else { return false };
+            let Ok(Some(modes)) = Modes::of(truth, pace).await else { return false };
             let is_met = match criterion {
                 Criterion::Bounded => modes.are_bounded(),
                 Criterion::Accurate => false,
@@ -115,7 +108,7 @@ impl Judge {
                     let error = modes.frequency_error();
                     let is_told = truth.swing.is_some() && truth.first_swings_s.is_none();
                     is_told
-                        && Modes::tell_the_width(truth, spec)
+                        && Modes::tell_the_width(truth, pace.spec)
                         && error.is_some_and(|error| error.abs() <= FREQUENCY_TOLERANCE)
                         && modes.are_as_wide(truth.horizon_s) == Some(true)
                 }
@@ -131,11 +124,10 @@ impl Judge {
     async fn bounces_within(
         &self,
         truth: &BodyTruth,
-        spec: LaneSpec,
-        tick_hz: TickRate,
+        pace: Pace,
         is_met: impl Fn(&BounceFinding) -> bool,
     ) -> Result<f64, CriterionMiss> {
-        let run = follow_bounces(truth, spec, tick_hz, self.max_work).await;
+        let run = follow_bounces(truth, pace, self.max_work).await;
         match run.failure {
             _ if run.is_too_much => Err(CriterionMiss::Unknown),
             None if !run.finding.is_empty() && is_met(&run.finding) => {
@@ -146,28 +138,23 @@ impl Judge {
     }
 
     /// Whether nothing grows that does not grow in truth, over the horizon and in the long run.
-    async fn is_bounded(
-        &self,
-        truth: &BodyTruth,
-        spec: LaneSpec,
-        tick_hz: TickRate,
-    ) -> Result<f64, CriterionMiss> {
+    async fn is_bounded(&self, truth: &BodyTruth, pace: Pace) -> Result<f64, CriterionMiss> {
         if truth.is_too_dear() {
-            let run = follow_energy(truth, spec, tick_hz, self.max_work).await;
+            let run = follow_energy(truth, pace, self.max_work).await;
             return match run.is_bounded() {
                 _ if run.is_too_much => Err(CriterionMiss::Unknown),
                 true => Ok(run.evaluations as f64 / run.seconds),
                 false => Err(CriterionMiss::Fails),
             };
         }
-        if let Some(modes) = Modes::of(truth, spec, tick_hz).await? {
+        if let Some(modes) = Modes::of(truth, pace).await? {
             if !modes.are_bounded() {
                 return Err(CriterionMiss::Fails);
             }
-            let run = follow(truth, spec, tick_hz, Until::Horizon, self.max_work).await;
+            let run = follow(truth, pace, Until::Horizon, self.max_work).await;
             return cost_if(run.failure.is_none(), &run);
         }
-        let run = follow(truth, spec, tick_hz, Until::Grown, self.max_work).await;
+        let run = follow(truth, pace, Until::Grown, self.max_work).await;
         match bounded(truth, &run) {
             Some(is_bounded) => cost_if(is_bounded, &run),
             None => Err(CriterionMiss::Unknown),
@@ -178,48 +165,37 @@ impl Judge {
     async fn beside_truth(
         &self,
         truth: &BodyTruth,
-        spec: LaneSpec,
-        tick_hz: TickRate,
+        pace: Pace,
         until: Until,
     ) -> Result<JudgedRun, CriterionMiss> {
         if truth.is_too_dear() {
             return Err(CriterionMiss::Unknown);
         }
-        let run = follow(truth, spec, tick_hz, until, self.max_work).await;
-        let gap = truth.gap(run.seconds, tick_hz).await;
+        let run = follow(truth, pace, until, self.max_work).await;
+        let gap = truth.gap(run.seconds, pace.tick_hz).await;
         without_truth(truth, &run, gap).map_or(Ok(run), |_| Err(CriterionMiss::Unknown))
     }
 
     /// Whether a body stays within [`TOLERANCE`] of its truth.
-    async fn is_accurate(
-        &self,
-        truth: &BodyTruth,
-        spec: LaneSpec,
-        tick_hz: TickRate,
-    ) -> Result<f64, CriterionMiss> {
-        let run = self.beside_truth(truth, spec, tick_hz, Until::Error(TOLERANCE)).await?;
+    async fn is_accurate(&self, truth: &BodyTruth, pace: Pace) -> Result<f64, CriterionMiss> {
+        let run = self.beside_truth(truth, pace, Until::Error(TOLERANCE)).await?;
         cost_if(run.error <= TOLERANCE, &run)
     }
 
     /// Whether a lane is accurate with the fraction `spare` of [`TOLERANCE`] left on every body with bumps. The errors
     /// of linear bodies have no bumps, because they change steadily with a parameter.
-    pub(in crate::measure) async fn is_accurate_sparing(
-        &self,
-        spare: f64,
-        spec: LaneSpec,
-        tick_hz: TickRate,
-    ) -> bool {
+    pub(in crate::measure) async fn is_accurate_sparing(&self, spare: f64, pace: Pace) -> bool {
         for truth in &self.truths {
             let spare = if truth.modes.is_none() { spare } else { 0.0 };
             let most = (1.0 - spare) * TOLERANCE;
             if truth.bounces() {
                 let within = |found: &BounceFinding| found.error() <= most;
-                if self.bounces_within(truth, spec, tick_hz, within).await.is_err() {
+                if self.bounces_within(truth, pace, within).await.is_err() {
                     return false;
                 }
                 continue;
             }
-            let run = self.beside_truth(truth, spec, tick_hz, Until::Error(most)).await;
+            let run = self.beside_truth(truth, pace, Until::Error(most)).await;
             if !run.is_ok_and(|run| run.error <= most && !run.is_too_much) {
                 return false;
             }
@@ -236,8 +212,7 @@ impl Judge {
     pub(super) async fn looks_right(
         &self,
         body: usize,
-        spec: LaneSpec,
-        tick_hz: TickRate,
+        pace: Pace,
         known: Option<&JudgedRun>,
     ) -> Result<f64, CriterionMiss> {
         let truth = &self.truths[body];
@@ -245,7 +220,7 @@ impl Judge {
         let run = match known {
             Some(run) => run,
             None => {
-                own = self.swinging(truth, spec, tick_hz).await?;
+                own = self.swinging(truth, pace).await?;
                 &own
             }
         };
@@ -253,7 +228,7 @@ impl Judge {
             return cost_if(run.failure.is_none(), run);
         }
         let Some(first_swings_s) = truth.first_swings_s else {
-            return cost_if(self.swings_alike(truth, run, spec, tick_hz).await?, run);
+            return cost_if(self.swings_alike(truth, run, pace).await?, run);
         };
         let inputs = truth.inputs_at_start();
         let find = BodyTruth::find(
@@ -264,24 +239,19 @@ impl Judge {
             self.meter.clone(),
         );
         let longer = self.of_swings[body].get(find).await;
-        let longer_run = self.swinging(longer, spec, tick_hz).await?;
-        let is_alike = longer_run.failure.is_none()
-            && self.swings_alike(longer, &longer_run, spec, tick_hz).await?;
+        let longer_run = self.swinging(longer, pace).await?;
+        let is_alike =
+            longer_run.failure.is_none() && self.swings_alike(longer, &longer_run, pace).await?;
         if longer_run.is_too_much { Err(CriterionMiss::Unknown) } else { cost_if(is_alike, run) }
     }
 
     /// Runs over the horizon of `truth`, measuring the swings if the modes do not determine them.
-    async fn swinging(
-        &self,
-        truth: &BodyTruth,
-        spec: LaneSpec,
-        tick_hz: TickRate,
-    ) -> Result<JudgedRun, CriterionMiss> {
-        let until = match Modes::tell_the_width(truth, spec) {
+    async fn swinging(&self, truth: &BodyTruth, pace: Pace) -> Result<JudgedRun, CriterionMiss> {
+        let until = match Modes::tell_the_width(truth, pace.spec) {
             true => Until::Horizon,
             false => Until::Swings,
         };
-        self.beside_truth(truth, spec, tick_hz, until).await
+        self.beside_truth(truth, pace, until).await
     }
 
     /// Whether a run over the horizon of `truth` has the same swings as the truth. If the truth does not swing, whether
@@ -290,13 +260,12 @@ impl Judge {
         &self,
         truth: &BodyTruth,
         run: &JudgedRun,
-        spec: LaneSpec,
-        tick_hz: TickRate,
+        pace: Pace,
     ) -> Result<bool, CriterionMiss> {
         // The range is twice the amplitude.
         let is_near = run.error <= 2.0 * VISIBLE;
         let Some(swing) = &truth.swing else { return Ok(is_near) };
-        let modes = Modes::of(truth, spec, tick_hz).await?;
+        let modes = Modes::of(truth, pace).await?;
         let crossings = run.swings.as_ref().map(|swings| &swings.crossings);
         let error = match &modes {
             Some(modes) => modes.frequency_error(),

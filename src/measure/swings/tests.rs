@@ -1,6 +1,7 @@
 use std::sync::Arc;
 
 use super::*;
+use crate::measure::pace::Pace;
 use crate::measure::run::{MAX_WORK, Until, follow};
 use crate::measure::slices::block_on;
 use crate::measure::truth::BodyTruth;
@@ -15,7 +16,8 @@ fn swings(head: &str, id: &str, tick_hz: u32, substeps: u32) -> Swings {
     let spec = LaneSpec { substeps, ..LaneSpec::plain(method(id).unwrap()) };
     let body = &scene.bodies[0];
     let truth = block_on(BodyTruth::find(body, &[], 1.0, scene.seconds, Arc::default()));
-    let run = block_on(follow(&truth, spec, tick_hz.into(), Until::Swings, MAX_WORK));
+    let run =
+        block_on(follow(&truth, Pace { spec, tick_hz: tick_hz.into() }, Until::Swings, MAX_WORK));
     run.swings.expect("it swings")
 }
 

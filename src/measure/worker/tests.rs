@@ -233,7 +233,7 @@ fn no_step_does_twice_its_work_and_a_new_request_drops_the_part_in_progress() {
 async fn all_of(scene: Scene, spec: LaneSpec, tick_hz: u32, meter: Arc<Meter>) -> String {
     let tick_hz = tick_hz.into();
     let adviser = Adviser::find(scene, 1.0, tick_hz, meter).await;
-    let verdict = adviser.judge().verdict_within(300_000, spec, tick_hz).await;
+    let verdict = adviser.judge().verdict_within(300_000, Pace { spec, tick_hz }).await;
     // The results are compared as text, because NaN may occur.
     if adviser.scene().bodies.iter().any(|body| body.kind.net().is_some()) {
         return format!("{verdict:?}");

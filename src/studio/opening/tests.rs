@@ -42,19 +42,6 @@ fn an_opened_file_stays_on_the_list_apart_from_built_in_scenes() {
 }
 
 #[test]
-fn opening_a_file_with_the_tick_key_warns() {
-    for (when, told) in [("at_s = 1", false), ("tick = 1", true)] {
-        let text = format!("{}\n[[command]]\n{when}\nthrottle = 0", text("ship"));
-        let opened = studio(&text);
-        let notice = opened.viewer.notice.as_deref().unwrap_or_default();
-        assert_eq!(notice.starts_with("ship.toml: `tick`"), told, "{notice}");
-        let mut listed = Studio::new(scene(&text));
-        list_as_file(&mut listed.deck, &mut listed.viewer, Path::new(PATH));
-        assert_eq!(listed.viewer.notice.is_some(), told);
-    }
-}
-
-#[test]
 fn a_changed_file_with_the_same_lanes_and_bodies_reruns_to_the_same_tick() {
     let before = text("spring");
     let after = before.replacen("mass_kg = ", "mass_kg = 1", 1);

@@ -5,7 +5,7 @@ use super::*;
 use crate::scene::{SCENES, Scene};
 use crate::studio::{StageCommand, Studio};
 use crate::view::drawing::{Draw, Mesh, Place};
-use crate::view::testing::{Pixels, executor, gpu_or_skip, paint, paint_on};
+use crate::view::tests::testing::{Pixels, executor, gpu_or_skip, paint, paint_on};
 use crate::view::{FrameRenderer, GpuExecutor, PixelDifference, PixelLimits};
 
 fn one_place(size_px: [u32; 2]) -> ScreenTransform {

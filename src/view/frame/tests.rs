@@ -4,7 +4,7 @@ use crate::stage::{Fill, Picture, Shape};
 use crate::studio::StageCommand;
 use crate::view::chart::{self, LineStyle, Primitive, ScreenCurve};
 use crate::view::offscreen_renderer::Offscreen;
-use crate::view::testing::{EVERYWHERE, Pixels, executor, gpu_or_skip, paint, paint_on};
+use crate::view::tests::testing::{EVERYWHERE, Pixels, executor, gpu_or_skip, paint, paint_on};
 use crate::view::{Gpu, GpuExecutor, RendererChoice};
 
 /// Longest side of a texture.

@@ -185,7 +185,7 @@ mod tests {
     use crate::scene::Scene;
     use crate::studio::guide::STOPS;
     use crate::studio::{Instrument, ViewCommand};
-    use crate::view::testing::TestWindow;
+    use crate::view::tests::testing::TestWindow;
 
     #[test]
     fn solo_compares_the_costs_of_offered_methods_after_the_prediction() {

@@ -39,7 +39,7 @@ mod tests {
     use super::*;
     use crate::scene::Scene;
     use crate::studio::{Studio, ViewCommand};
-    use crate::view::testing::TestWindow;
+    use crate::view::tests::testing::TestWindow;
 
     #[test]
     fn the_whole_list_is_on_every_window() {

@@ -47,7 +47,7 @@ mod tests {
 
     use crate::scene::Scene;
     use crate::studio::{StageCommand, Studio};
-    use crate::view::testing::TestWindow;
+    use crate::view::tests::testing::TestWindow;
 
     fn tab() -> Event {
         let (key, modifiers) = (Key::Tab, Modifiers::NONE);

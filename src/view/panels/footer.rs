@@ -164,7 +164,7 @@ mod tests {
 
     #[test]
     fn a_click_on_a_key_of_a_hint_does_what_the_key_does() {
-        use crate::view::testing::TestWindow;
+        use crate::view::tests::testing::TestWindow;
         let mut studio = Studio::new(Scene::built_in("spring").unwrap());
         let mut window = TestWindow::new([390.0, 700.0]);
         let clicked = |studio: &Studio, window: &mut TestWindow, key: &str| {

@@ -97,7 +97,7 @@ mod tests {
     use super::*;
     use crate::scene::Scene;
     use crate::studio::Studio;
-    use crate::view::testing::TestWindow;
+    use crate::view::tests::testing::TestWindow;
 
     #[test]
     fn a_click_into_the_help_of_a_window_of_any_size_does_not_panic() {

@@ -252,7 +252,7 @@ mod tests {
     use super::*;
     use crate::scene::{LaneId, SCENES, Scene};
     use crate::studio::StageCommand;
-    use crate::view::testing::TestWindow;
+    use crate::view::tests::testing::TestWindow;
 
     /// Returns every visible text in a frame that is high enough for all of the inspector.
     fn texts(studio: &Studio) -> Vec<String> {
@@ -357,8 +357,10 @@ mod tests {
             all.iter().find(|(rect, text)| text == "▶" && is_beside(rect)).expect("a button").0;
         let at = play.center();
         for is_down in [true, false] {
-            let events =
-                vec![egui::Event::PointerMoved(at), crate::view::testing::button(at, is_down)];
+            let events = vec![
+                egui::Event::PointerMoved(at),
+                crate::view::tests::testing::button(at, is_down),
+            ];
             assert_eq!(window.panels(&studio, events).0, []);
         }
         let before = studio.race().values(0).to_vec();

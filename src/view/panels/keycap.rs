@@ -158,7 +158,7 @@ pub(super) fn paragraph(ui: &mut Ui, sentence: &str, colour: Color32, commands: 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::view::testing::TestWindow;
+    use crate::view::tests::testing::TestWindow;
 
     #[test]
     fn a_screen_reader_hears_the_keys_of_a_paragraph() {

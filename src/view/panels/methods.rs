@@ -212,7 +212,7 @@ mod tests {
     use crate::scene::Scene;
     use crate::studio::StageCommand;
     use crate::view::panels;
-    use crate::view::testing::TestWindow;
+    use crate::view::tests::testing::TestWindow;
 
     /// Returns the words of the row in a window of this width. The two lines of a name are joined with a blank.
     fn words(studio: &Studio, width: f32) -> Vec<String> {
@@ -264,7 +264,7 @@ mod tests {
             drop(frame());
             let texts = frame().texts;
             let shown = names.iter().filter(|name| {
-                let is_it = |text: &&crate::view::testing::ShownText| {
+                let is_it = |text: &&crate::view::tests::testing::ShownText| {
                     text.shape.galley.text() == **name && text.shape.pos.y > size[1] - 200.0
                 };
                 texts.iter().filter(is_it).all(|text| text.clip.contains(text.shape.pos))

@@ -76,7 +76,7 @@ pub(super) fn show(
 mod tests {
     use super::*;
     use crate::scene::Scene;
-    use crate::view::testing::TestWindow;
+    use crate::view::tests::testing::TestWindow;
 
     #[test]
     fn the_dialog_shows_lines_code_and_faults_whole_on_every_window() {

@@ -150,7 +150,7 @@ mod tests {
 
     use super::*;
     use crate::scene::Scene;
-    use crate::view::testing::{TestWindow, button};
+    use crate::view::tests::testing::{TestWindow, button};
 
     #[test]
     fn an_error_message_moves_no_field_of_the_dialog() {

@@ -256,7 +256,7 @@ mod tests {
     use egui::{Event, vec2};
 
     use super::*;
-    use crate::view::testing::TestWindow;
+    use crate::view::tests::testing::TestWindow;
 
     #[test]
     fn numbers_are_short_and_can_be_typed_in_again() {

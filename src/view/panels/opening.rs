@@ -118,7 +118,7 @@ mod tests {
     use super::*;
     use crate::scene::Scene;
     use crate::studio::{Dialog, refuse_typed_path, show_mistakes};
-    use crate::view::testing::TestWindow;
+    use crate::view::tests::testing::TestWindow;
 
     /// Returns the size of the only dialog over the studio, in points.
     fn size_of_dialog(studio: &Studio, title: &str) -> egui::Vec2 {

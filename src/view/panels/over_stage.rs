@@ -76,7 +76,7 @@ pub(super) fn quit_question(ui: &Ui, studio: &Studio, stage: Rect) {
 mod tests {
     use super::*;
     use crate::scene::Scene;
-    use crate::view::testing::TestWindow;
+    use crate::view::tests::testing::TestWindow;
 
     #[test]
     fn the_button_to_fit_is_there_only_for_a_chosen_view_and_fits_it() {

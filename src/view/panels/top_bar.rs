@@ -268,7 +268,7 @@ fn button(ui: &mut Ui, text: &str, hover: &str, command: Command, commands: &mut
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::view::testing::TestWindow;
+    use crate::view::tests::testing::TestWindow;
 
     #[test]
     fn the_scene_menu_also_offers_a_comparison() {

@@ -16,7 +16,7 @@ const PRINTERS: [&str; 5] = [
     "src/commands/pipeline.rs",
     "src/commands/terminal.rs",
     "src/main.rs",
-    "src/view/testing.rs",
+    "src/view/tests/testing.rs",
 ];
 const STREAMS: [&str; 6] =
     ["io::stdout()", "io::stderr()", "println!", "print!", "eprintln!", "eprint!"];

@@ -124,7 +124,8 @@ fn bless_keeps_the_line_endings_of_the_file() {
 fn a_lane_is_named_by_its_number_and_by_every_method_that_it_had() {
     let folder = tempfile::tempdir().unwrap();
     let switch = |tick: u32, method: &str| {
-        format!("[[command]]\ntick = {tick}\nlane = 1\nmethod = '{method}'\n")
+        let at_s = f64::from(tick) / 30.0;
+        format!("[[command]]\nat_s = {at_s}\nlane = 1\nmethod = '{method}'\n")
     };
     let text = "title = 'x'\ntick_hz = 30\nseconds = 1\nmethods = ['rk4', 'midpoint']\n\
                 [[spring]]\nmass_kg = 1\nstiffness_n_per_m = 40\n";

@@ -5,7 +5,7 @@ use crate::measure::AnalysisWorker;
 use crate::scene::Scene;
 use crate::studio::{Instrument, StageCommand, accept_findings};
 use crate::view::panels;
-use crate::view::testing::{ShownText, TestWindow};
+use crate::view::tests::testing::{ShownText, TestWindow};
 
 /// Shows frames of this size. Returns the stage, and every text that is fully visible, with its place.
 fn shown(studio: &Studio, size: [f32; 2]) -> (Rect, Vec<(Pos2, String)>) {

@@ -18,7 +18,7 @@ use super::{body_choice, chart, choice};
 use crate::look::density_picture;
 use crate::look::palette::{Rgba, Theme};
 use crate::measure::cloud::{
-    CloudChoice, CloudKind, CloudPicture, CloudRequest, Density, LaneCloud, MAX_LINE_PART, POINTS,
+    CloudChoice, CloudPicture, CloudRequest, CloudShape, Density, LaneCloud, MAX_LINE_PART, POINTS,
     hidden_in_words,
 };
 use crate::run::race::Mode;
@@ -68,7 +68,7 @@ const HALF_MARK: f32 = 5.0;
 /// Minimum lag of the clouds behind the run that is shown, in seconds.
 const BEHIND_S: f64 = 0.25;
 
-/// Returns the plot of the areas of all clouds over time, or `None` if there are no clouds or they are a section.
+/// Returns the plot of the areas of all clouds over time, or `None` if there are no clouds.
 pub(super) fn plot_set(studio: &Studio) -> Option<PlotSet> {
     let picture = shown_cloud(studio)?.picture.as_ref().ok()?;
     let body = studio.view().body;
@@ -78,9 +78,6 @@ pub(super) fn plot_set(studio: &Studio) -> Option<PlotSet> {
         let places = lane.areas.iter().copied().map(place);
         Track::of_places(lane.entry, lane.entry == studio.active(), places)
     };
-    if picture.section.is_some() {
-        return None;
-    }
     let mut tracks: Vec<Track> = picture.lanes.iter().map(track).collect();
     tracks.sort_by_key(|track| track.is_front);
     let exact = ExactLine::of_places(studio, picture.exact.iter().copied().map(place));
@@ -119,8 +116,7 @@ pub(super) fn show(ui: &mut Ui, studio: &Studio, room: Vec2, commands: &mut Vec<
     };
     let left = (bottom - ui.cursor().top()).max(MIN_SIDE);
     let has_room = left >= breakpoints::AREAS_OVER_TIME && studio.display().measure;
-    let for_areas =
-        if has_room && picture.section.is_none() { (AREAS * left).max(MIN_AREAS) } else { 0.0 };
+    let for_areas = if has_room { (AREAS * left).max(MIN_AREAS) } else { 0.0 };
     let (clouds, _) = ui.allocate_exact_size(vec2(room.x, left - for_areas), Sense::hover());
     side_by_side(ui, studio, picture, clouds, commands);
     if for_areas > 0.0
@@ -140,26 +136,20 @@ fn head(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) {
     let shown = shown.and_then(|found| Some((&*found.request, found.picture.as_ref().ok()?)));
     ui.horizontal_wrapped(|ui| {
         ui.label(RichText::new("Cloud").font(strong_font(15.0)).color(palette(ui).text));
-        let kind = |kind: CloudKind| {
-            (Command::Run(RunCommand::Cloud(CloudChoice { kind, ..chosen })), kind.name())
+        let shape = |shape: CloudShape| {
+            (Command::Run(RunCommand::Cloud(CloudChoice { shape, ..chosen })), shape.id())
         };
-        let offered = CloudKind::ALL.into_iter().map(kind);
-        choice(ui, "shape of the cloud", offered, kind(chosen.kind), commands);
-        if chosen.kind != CloudKind::Section {
-            let counted = |points: usize| format!("{} points", grouped(points as u64));
-            let counts = POINTS.map(counted);
-            let command =
-                |points| Command::Run(RunCommand::Cloud(CloudChoice { points, ..chosen }));
-            let now = counted(chosen.points);
-            let offered = POINTS.into_iter().map(command).zip(counts.iter().map(String::as_str));
-            choice(ui, "points of the cloud", offered, (command(chosen.points), &now), commands);
-        }
+        let offered = CloudShape::ALL.into_iter().map(shape);
+        choice(ui, "shape of the cloud", offered, shape(chosen.shape), commands);
+        let counted = |points: usize| format!("{} points", grouped(points as u64));
+        let counts = POINTS.map(counted);
+        let command = |points| Command::Run(RunCommand::Cloud(CloudChoice { points, ..chosen }));
+        let now = counted(chosen.points);
+        let offered = POINTS.into_iter().map(command).zip(counts.iter().map(String::as_str));
+        choice(ui, "points of the cloud", offered, (command(chosen.points), &now), commands);
         body_choice(ui, studio, commands);
-        let told = shown.map(|(request, picture)| match &picture.section {
-            Some(section) => section.clone(),
-            None => format!("{}; {}", moment(studio, request, picture), legend(picture)),
-        });
-        if let Some(words) = told {
+        if let Some((request, picture)) = shown {
+            let words = format!("{}; {}", moment(studio, request, picture), legend(picture));
             ui.label(RichText::new(words).color(palette(ui).dim));
         }
     });
@@ -293,9 +283,8 @@ fn side_by_side(
         pos2(room.right(), room.bottom() - NUMBERS - NAMES),
     );
     // Large clouds in one row have their areas as numbers below them.
-    let is_large = inner.width() / lanes.len() as f32 >= LARGE
-        && inner.height() >= LARGE + AREA_ROOM
-        && picture.section.is_none();
+    let is_large =
+        inner.width() / lanes.len() as f32 >= LARGE && inner.height() >= LARGE + AREA_ROOM;
     let below = if is_large { AREA_ROOM } else { 0.0 };
     let layout = |columns: usize, captions: &Captions<'_>, least: f32| {
         let rows = lanes.len().div_ceil(columns);

@@ -9,7 +9,7 @@ use crate::scene::{Action, SCENES, Scene};
 use crate::studio::{BOOK_FIGURES, RunCommand, StageCommand, ViewCommand, complete_clouds};
 use crate::view::chart::PlotArea;
 use crate::view::panels;
-use crate::view::testing::{TestWindow, button};
+use crate::view::tests::testing::{TestWindow, button};
 
 mod shown;
 

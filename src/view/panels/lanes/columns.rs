@@ -190,7 +190,7 @@ mod tests {
     use crate::studio::guide::STOPS;
     use crate::studio::{StageCommand, Studio, ViewCommand};
     use crate::view::panels::lanes;
-    use crate::view::testing::TestWindow;
+    use crate::view::tests::testing::TestWindow;
 
     #[test]
     fn a_missing_truth_is_reported_once_on_the_stage_and_in_no_cell() {

@@ -4,7 +4,7 @@ use super::*;
 use crate::scene::Scene;
 use crate::studio::{RunCommand, StageCommand};
 use crate::view::panels::table::{Order, SortKey};
-use crate::view::testing::TestWindow;
+use crate::view::tests::testing::TestWindow;
 
 fn race() -> Studio {
     judged_race(Scene::built_in("harbour").unwrap())

@@ -53,7 +53,7 @@ mod tests {
     use crate::studio::{Studio, run_loops};
     use crate::view::panels;
     use crate::view::panels::timeline::{HEIGHT, MARGIN, MEMORY, TRACK_Y};
-    use crate::view::testing::TestWindow;
+    use crate::view::tests::testing::TestWindow;
 
     const SIZE: Vec2 = vec2(1280.0, 720.0);
 

@@ -70,7 +70,7 @@ pub(super) fn show(
 mod tests {
     use crate::scene::Scene;
     use crate::studio::{Instrument, StageCommand, Studio, ViewCommand};
-    use crate::view::testing::TestWindow;
+    use crate::view::tests::testing::TestWindow;
 
     /// Returns the labels of the loupes in a frame, under the method at this index of the spring's list.
     fn labels(entry: usize) -> Vec<String> {

@@ -5,7 +5,7 @@ use crate::run::diff::{Comparison, Difference};
 use crate::scene::{Action, Scene};
 use crate::studio::{RunCommand, StageCommand, Step, show_comparison};
 use crate::view::panels;
-use crate::view::testing::{TestWindow, button};
+use crate::view::tests::testing::{TestWindow, button};
 
 const SIZE: Vec2 = vec2(1280.0, 720.0);
 

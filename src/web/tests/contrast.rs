@@ -1,8 +1,8 @@
 //! Tests that the colours of the pages have enough contrast for everybody.
 
 const SHEETS: [&str; 2] = [
-    include_str!("../../assets/web/page.css"),
-    include_str!("../../assets/web/questions/questions.css"),
+    include_str!("../../../assets/web/page.css"),
+    include_str!("../../../assets/web/questions/questions.css"),
 ];
 
 /// Minimum contrast between text and its background, by the guidelines for the accessibility of pages (level AA).

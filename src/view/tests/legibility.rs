@@ -5,12 +5,10 @@ use egui::epaint::text::PlacedRow;
 use egui::{Pos2, Rect, Ui, Vec2, vec2};
 use rayon::prelude::*;
 
-use super::frame::write;
 use super::testing::{ShownText, TestWindow};
-use super::{panels, theme};
 use crate::look::palette::Theme;
 use crate::loops::loop_lab::LoopCommand;
-use crate::measure::cloud::{CloudChoice, CloudKind, CloudWorker};
+use crate::measure::cloud::{CloudChoice, CloudShape, CloudWorker};
 use crate::run::race::Mode;
 use crate::scene::TickRate;
 use crate::scene::{OPENING, SCENES, Scene};
@@ -21,6 +19,8 @@ use crate::studio::{
     SCALE_LADDER, StageCommand, Step, Studio, ViewCommand, complete_clouds, run_loops,
     unanswered_request,
 };
+use crate::view::frame::write;
+use crate::view::{panels, theme};
 
 /// Window sizes in points: the first is the minimum, and the last has four times the usual pixels.
 const SIZES: [Vec2; 4] =
@@ -217,21 +217,20 @@ fn every_text_is_legible_under_every_instrument_and_the_inspector_on_every_scene
 }
 
 #[test]
-fn every_text_is_legible_beside_clouds_and_sections() {
+fn every_text_is_legible_beside_clouds() {
     let scenes = [
-        ("liouville", true, CloudKind::default()),
-        ("spring", false, CloudKind::default()),
-        ("spring", true, CloudKind::default()),
-        ("kicked-rotor", true, CloudKind::Section),
+        ("liouville", true, CloudShape::default()),
+        ("spring", false, CloudShape::default()),
+        ("spring", true, CloudShape::default()),
     ];
-    for (name, race, kind) in scenes {
+    for (name, race, shape) in scenes {
         let mut studio = Studio::new(Scene::built_in(name).expect("a built-in scene"));
         if race {
             studio.apply(StageCommand::ToggleRace);
         }
         (0..studio.race().tick_hz().hz() as u32).for_each(|_| studio.tick());
         studio.apply(StageCommand::Instrument(Instrument::Cloud));
-        studio.apply(RunCommand::Cloud(CloudChoice { kind, points: 1000 }));
+        studio.apply(RunCommand::Cloud(CloudChoice { shape, points: 1000 }));
         complete_clouds(&mut studio, &mut CloudWorker::default(), || false);
         assert_legible(&studio, &format!("clouds of {name}, race {race}"));
         studio.apply(ViewCommand::ToggleEnlarged);
