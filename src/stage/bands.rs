@@ -50,7 +50,7 @@ impl Band {
     /// Divides a band: the card is at the right, or below the body on a narrow stage.
     pub(super) fn of(band: Rect) -> Self {
         let [width, height] = [0, 1].map(|axis| band.max[axis] - band.min[axis]);
-        let ruler = (height >= breakpoints::RULER_OF_BAND).then(|| chart::RULER);
+        let ruler = (height >= breakpoints::RULER_OF_BAND).then_some(chart::RULER);
         let mut cell = Rect { min: [band.min[0], band.min[1] + ruler.unwrap_or_default()], ..band };
         let card = if width >= breakpoints::CARD_BESIDE {
             let [least, most] = COLUMNS;

@@ -357,18 +357,16 @@ impl BodyCell<'_> {
         if Look::of(truth).has_ground() && truth.halted().is_none() {
             apex::draw(picture, camera, (moment, !lost.is_empty()), self.front, index);
         }
-        if shows_ghost {
-            if (studio.mode() == Mode::Solo || self.is_banded()) && index == 0 {
-                let bead = ghost.outline.marks.iter().find_map(|mark| match mark {
-                    Mark::Disc { radius, .. } => Some(camera.size(*radius)),
-                    _ => None,
-                });
-                let is_recorded = matches!(framing, Framing::Recorder { .. });
-                let beside = bead.filter(|_| is_recorded).unwrap_or(lift);
-                let beside = hull::half_height(&ghost.outline, camera).max(beside);
-                let exact = ("exact", palette.exact);
-                captions::ghost_name(picture, camera, (ghost.outline.at, beside), exact, palette);
-            }
+        if shows_ghost && (studio.mode() == Mode::Solo || self.is_banded()) && index == 0 {
+            let bead = ghost.outline.marks.iter().find_map(|mark| match mark {
+                Mark::Disc { radius, .. } => Some(camera.size(*radius)),
+                _ => None,
+            });
+            let is_recorded = matches!(framing, Framing::Recorder { .. });
+            let beside = bead.filter(|_| is_recorded).unwrap_or(lift);
+            let beside = hull::half_height(&ghost.outline, camera).max(beside);
+            let exact = ("exact", palette.exact);
+            captions::ghost_name(picture, camera, (ghost.outline.at, beside), exact, palette);
         }
         self.draw_compared(picture, lift);
         let is_alone = self.lanes.len() == 1;

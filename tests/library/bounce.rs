@@ -336,6 +336,75 @@ fn a_verdict_counts_bounces_in_place_of_distances() {
     }
 }
 
+/// Returns the verdict on a ball of these keys at this rate, for so many seconds.
+fn verdict_on(ball: &str, (hz, seconds): (u32, f64), method_id: &str, rule: &str) -> String {
+    let head = format!("title = 'x'\ntick_hz = {hz}\nseconds = {seconds:?}\n");
+    let head = format!("{head}methods = ['{method_id}']\nimpact = '{rule}'\n");
+    let scene = Scene::parse("x.toml", &format!("{head}{ball}")).unwrap();
+    Judge::new(&scene).verdict(scene.lanes[0], scene.tick_hz).to_string()
+}
+
+#[test]
+fn a_ball_of_short_flights_is_judged_by_heights_and_a_kicked_one_not_at_all() {
+    let perpetual = "[[ball]]\nheight_m = 1.0\nrestitution = 1.0\n";
+    let kicked = format!("{perpetual}[[command]]\nat_s = 0.3\nkick = 1.0\n");
+    let thrown = "[[ball]]\nheight_m = 2.0\nrestitution = 0.0\n";
+    let rests = "[[ball]]\nheight_m = 0.0\nrestitution = 1.0\n";
+    for (ball, rate, method, rule, wanted) in [
+        (perpetual, (10, 10.0), "explicit-euler", "clamp", "inaccurate · off by"),
+        (perpetual, (5, 10.0), "rk4", "clamp", "inaccurate · off by"),
+        (&*kicked, (60, 10.0), "explicit-euler", "clamp", "not judged · no flight before"),
+        (rests, (60, 5.0), "rk4", "clamp", "accurate"),
+        (thrown, (30, 1.5), "velocity-verlet", "clamp", "accurate"),
+    ] {
+        let found = verdict_on(ball, rate, method, rule);
+        assert!(found.starts_with(wanted), "{ball} {rate:?} {method} {rule}: {found}");
+    }
+    for rule in ["penalty", "velocity"] {
+        let found = verdict("landing", "velocity-verlet", rule);
+        let thirty = Scene::built_in("landing").unwrap().at_tick_hz(30);
+        let spec = LaneSpec {
+            impact: impact(rule).unwrap(),
+            ..LaneSpec::plain(method("velocity-verlet").unwrap())
+        };
+        let at_30 = Judge::new(&thirty).verdict(spec, thirty.tick_hz).to_string();
+        assert!(!at_30.starts_with("accurate"), "{rule}: {found}, {at_30}");
+    }
+}
+
+#[test]
+fn a_ball_with_drag_is_judged_without_walking_from_its_first_flight() {
+    let dragged = "[[ball]]\nheight_m = 1.0\ndrag_per_s = 0.1\n";
+    let found = verdict_on(dragged, (1000, 20.0), "rk4", "locate");
+    assert!(found.starts_with("accurate"), "{found}");
+    // Every order of moments gives the same bits.
+    let body = || Ball { drag: 0.3, ..ball([1.0, 2.0], 0.7) };
+    let (walked, from) = (body(), State { q: 1.0, v: 2.0 });
+    for t in [0.3, 4.0, 1.1, 9.0, 0.2, 2.5, 2.6, 60.0, 0.9] {
+        let state = |body: &Ball| body.exact(t, &from).unwrap();
+        let [own, fresh] = [state(&walked), state(&body())];
+        assert_eq!(
+            (own.q.to_bits(), own.v.to_bits()),
+            (fresh.q.to_bits(), fresh.v.to_bits()),
+            "{t}"
+        );
+    }
+}
+
+#[test]
+fn a_ball_switched_in_flight_is_judged_beside_the_truth() {
+    let scene = Scene::built_in("perpetual")
+        .unwrap()
+        .with_methods(&[method("explicit-euler").unwrap(), method("rk4").unwrap()]);
+    let scene = scene.with_impacts(&[], &[impact("locate").unwrap()]);
+    let mut studio = Studio::new(scene);
+    (0..240).for_each(|_| studio.tick());
+    studio.apply(StageCommand::Pick(1));
+    studio.analyse();
+    let found = studio.viewer.verdict(studio.active()).expect("a verdict").to_string();
+    assert!(found.contains("% too high"), "{found}");
+}
+
 #[test]
 fn a_ball_that_lands_on_ticks_is_called_lucky() {
     let head = "title = 'x'\ntick_hz = 60\nseconds = 10\nmethods = ['velocity-verlet']";
