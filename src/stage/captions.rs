@@ -387,7 +387,9 @@ pub(super) fn futures(picture: &mut Picture, rect: Rect, studio: &Studio, palett
     let words = format!("the next second{of}, a dot a tick");
     let width = LETTER * words.chars().count() as f32;
     let middle = (rect.min[0] + rect.max[0]) / 2.0;
-    if width <= rect.max[0] - left {
+    // In a low band it would lie over the ends of the threads.
+    let is_low = !studio.bands().is_empty() && rect.max[1] - rect.min[1] < breakpoints::LOW_BAND;
+    if width <= rect.max[0] - left && !is_low {
         let at = [middle.max(left + width / 2.0), rect.max[1] - 10.0];
         picture.labels.push(text(palette, at, Align::Centre, 12.5, palette.text, words));
     }

@@ -349,7 +349,7 @@ fn a_ball_of_short_flights_is_judged_by_heights_and_a_kicked_one_not_at_all() {
     let perpetual = "[[ball]]\nheight_m = 1.0\nrestitution = 1.0\n";
     let kicked = format!("{perpetual}[[command]]\nat_s = 0.3\nkick = 1.0\n");
     let thrown = "[[ball]]\nheight_m = 2.0\nrestitution = 0.0\n";
-    let rests = "[[ball]]\nheight_m = 0.0\nrestitution = 1.0\n";
+    let rests = "[[ball]]\nheight_m = 0.0\nrestitution = 0.0\n";
     for (ball, rate, method, rule, wanted) in [
         (perpetual, (10, 10.0), "explicit-euler", "clamp", "inaccurate · off by"),
         (perpetual, (5, 10.0), "rk4", "clamp", "inaccurate · off by"),
