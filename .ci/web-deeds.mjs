@@ -22,7 +22,7 @@ export async function holdDeeds({ opened, hold, becomes, seconds, tick, driven, 
 
     async function holdFingers() {
         const phone = { width: 390, height: 844, deviceScaleFactor: 2, isMobile: true, hasTouch: true };
-        const page = await opened("#tick=0", phone);
+        const page = await opened("#scene=harbour&tick=0", phone);
         const cdp = await page.puppeteer.createCDPSession();
         const touch = async (type, ...fingers) => {
             const touchPoints = fingers.map(([x, y], id) => ({ x, y, id }));
@@ -37,7 +37,7 @@ export async function holdDeeds({ opened, hold, becomes, seconds, tick, driven, 
             await becomes(page, (before) => location.hash !== before, before);
             return page.evaluate(() => location.hash);
         };
-        const untouched = await link("#tick=0");
+        const untouched = await link("#scene=harbour&tick=0");
         await touch("touchStart", [270, 144]);
         for (const x of [230, 190, 150]) {
             await touch("touchMove", [x, 144]);

@@ -290,9 +290,7 @@ fn every_text_is_legible_in_bands_of_any_methods_in_both_themes_and_beside_a_fan
         studio.viewer.preferences.display.motion = motion;
         studio.analyse();
         for digit in [None, Some(2), Some(3), Some(4), Some(0)] {
-            if let Some(digit) = digit {
-                studio.apply(StageCommand::Pick(digit));
-            }
+            digit.into_iter().for_each(|digit| _ = studio.apply(StageCommand::Pick(digit)));
             for futures in [false, true] {
                 if futures {
                     studio.apply(ViewCommand::ToggleFutures);
@@ -581,12 +579,8 @@ fn the_opening_shows_few_words_and_numbers_and_no_tabs() {
             }
             let counted = counted(&studio, SIZES[1]);
             let [words, numbers] = [0, 1].map(|of| counted[of].len());
-            let more = match seconds {
-                0 => [0; 2],
-                // A stage that zooms out may have one more mark on its ruler.
-                1..=2 => [0, 1],
-                _ => sentence,
-            };
+            // A stage that zooms out may have one more mark on its ruler.
+            let more = if seconds > 2 { sentence } else { [0, usize::from(seconds > 0)] };
             let most = [0, 1].map(|of| most[of] + more[of]);
             assert!(words > 20 && words <= most[0], "{words} at {seconds} s: {:?}", counted[0]);
             assert!(
