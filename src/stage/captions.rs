@@ -358,8 +358,8 @@ fn span(label: &Label) -> [f32; 2] {
     [left, left + width]
 }
 
-/// Marks a paused stage by two bars above its scale bar.
-pub(super) fn pause(picture: &mut Picture, studio: &Studio, stage: Rect) {
+/// Marks a paused stage by two bars above the scale bar at this lower right corner.
+pub(super) fn pause(picture: &mut Picture, studio: &Studio, stage: Rect, corner: [f32; 2]) {
     let is_paused = match studio.loop_lab() {
         Some(_) => !studio.running(),
         None => !studio.deck.runs_or_rests(studio.display().motion),
@@ -369,7 +369,7 @@ pub(super) fn pause(picture: &mut Picture, studio: &Studio, stage: Rect) {
         return;
     }
     let palette = studio.display().theme.palette();
-    let [right, bottom] = [stage.max[0] - 12.0, stage.max[1] - 36.0];
+    let [right, bottom] = [corner[0] - 12.0, corner[1] - 36.0];
     let sign = Rect { min: [right - PAUSE, bottom - PAUSE], max: [right, bottom] };
     plate(picture, sign, fade(palette.text, 0.5), stage, palette);
     let middle = right - PAUSE / 2.0;

@@ -55,8 +55,11 @@ pub fn compose(studio: &Studio, size: [f32; 2]) -> Picture {
     let bodies = studio.scene().bodies.len();
     let ghosts: Vec<Ghost> = (0..bodies).map(|index| Ghost::new(&moment, index)).collect();
     let entrants: Vec<&Entrant> = studio.race().entrants().iter().collect();
+    let mut corner = stage.max;
     match (studio.mode(), studio.display().arrangement) {
-        _ if !moment.bands.is_empty() => in_bands(&mut picture, &moment, stage, &ghosts[0]),
+        _ if !moment.bands.is_empty() => {
+            corner = in_bands(&mut picture, &moment, stage, &ghosts[0]);
+        }
         (Mode::Solo, _) | (Mode::Race, Arrangement::Overlay) => {
             overlay(&mut picture, &moment, stage, &ghosts, &entrants);
         }
@@ -64,7 +67,7 @@ pub fn compose(studio: &Studio, size: [f32; 2]) -> Picture {
             side_by_side(&mut picture, &moment, stage, &ghosts, &entrants);
         }
     }
-    captions::pause(&mut picture, studio, stage);
+    captions::pause(&mut picture, studio, stage, corner);
     picture
 }
 
@@ -127,13 +130,20 @@ fn overlay(
     }
 }
 
-/// Draws some lanes in bands, one below the other, each with its own scale and its code.
-fn in_bands(picture: &mut Picture, moment: &DrawContext<'_>, stage: Rect, ghost: &Ghost) {
+/// Draws some lanes in bands, one below the other, each with its own scale and its code. Returns the lower right corner
+/// of the last body's cell.
+fn in_bands(
+    picture: &mut Picture,
+    moment: &DrawContext<'_>,
+    stage: Rect,
+    ghost: &Ghost,
+) -> [f32; 2] {
     let lanes = moment.bands.iter().filter_map(|&entry| moment.studio.deck.lane_of(entry));
     let lanes: Vec<&Entrant> = lanes.collect();
-    let mut cards = Vec::new();
+    let (mut cards, mut corner) = (Vec::new(), stage.max);
     for (entrant, band) in lanes.iter().zip(bands(stage, &vec![1.0; lanes.len()])) {
         let Band { ruler, cell, card } = Band::of(band);
+        corner = cell.max;
         let view = &on_one_stage(moment, vec![ghost.view], entrant)[0];
         let camera = moment.camera(cell, 0, view);
         if view.recorded_m().is_some() {
@@ -155,6 +165,7 @@ fn in_bands(picture: &mut Picture, moment: &DrawContext<'_>, stage: Rect, ghost:
         }
     }
     bands::draw(picture, moment, stage, &cards);
+    corner
 }
 
 /// Draws each lane in its own cells.

@@ -52,7 +52,7 @@ pub(super) fn compose(studio: &Studio, loops: &LoopLab, size: [f32; 2]) -> Pictu
         let strip = Rect { min: stage.min, max: [size[0], top] };
         chart::ruler(&mut picture, strip, &camera, palette);
     }
-    captions::pause(&mut picture, studio, stage);
+    captions::pause(&mut picture, studio, stage, stage.max);
     picture
 }
 
