@@ -112,11 +112,12 @@ impl Adviser {
         block_on(Self::find(scene.clone(), FULL_THROTTLE, tick_hz, meter))
     }
 
-    /// Whether the work limit is reached.
+    /// Returns a lane's method at the tick rate of the advice.
     fn pace(&self, spec: LaneSpec) -> Pace {
         Pace { spec, tick_hz: self.tick_hz }
     }
 
+    /// Whether the work limit is reached.
     fn is_spent(&self) -> bool {
         self.judge.meter().budget_left() == 0
     }

@@ -35,6 +35,7 @@ pub struct Judge {
     horizon_s: f64,
     throttle: f64,
     max_work: u64,
+    begins_later: bool,
     truths: Vec<BodyTruth>,
     /// Truths over their first swings, for bodies that make too few swings within the horizon. Each truth is computed
     /// on first use.
@@ -90,12 +91,27 @@ impl Judge {
             truths.push(BodyTruth::find(body, &inputs, throttle, horizon_s, meter).await);
         }
         let of_swings = truths.iter().map(|_| Once::default()).collect();
-        Self { horizon_s, throttle, max_work: MAX_WORK, truths, of_swings, meter }
+        Self {
+            horizon_s,
+            throttle,
+            max_work: MAX_WORK,
+            begins_later: false,
+            truths,
+            of_swings,
+            meter,
+        }
     }
 
     /// Limits the work of each run to less than [`MAX_WORK`]. Results beyond the limit are unknown.
     pub(super) fn within(mut self, max_work: u64) -> Self {
         self.max_work = max_work;
+        self
+    }
+
+    /// Judges a run from some later time on, if `begins_later` is true. The judge's clock begins at 0 all the same, so
+    /// that it does not judge a body that a clock drives.
+    pub(super) fn beginning_later(mut self, begins_later: bool) -> Self {
+        self.begins_later = begins_later;
         self
     }
 
@@ -158,18 +174,12 @@ impl Judge {
         Verdict { evaluations, long_term, of_bodies: verdicts, ..worst }
     }
 
-    /// Returns the verdict without findings on bodies whose motion depends on the time of the run.
-    pub(super) fn without_driven(verdict: Verdict, is_driven: impl Fn(usize) -> bool) -> Verdict {
-        let mut of_bodies = verdict.of_bodies;
-        for of_body in of_bodies.iter_mut().filter(|of_body| is_driven(of_body.body)) {
-            of_body.finding = Finding::NotJudged(NotJudged::Driven);
-            of_body.long_term = LongTerm::default();
-        }
-        Self::of_all(of_bodies)
-    }
-
     async fn verdict_on_body(&self, body: usize, max_work: u64, pace: Pace) -> Verdict {
         let truth = &self.truths[body];
+        if self.begins_later && truth.is_driven() {
+            let finding = Finding::NotJudged(NotJudged::Driven);
+            return self.verdict_with(body, finding, LongTerm::default());
+        }
         if truth.is_too_dear() {
             // A tick of a large body may take seconds, so its run ends with the horizon. Later growth would matter to
             // nobody.

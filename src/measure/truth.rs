@@ -6,7 +6,7 @@ use super::slices::Meter;
 use super::survey::{Ranges, TruthNode};
 use crate::run::race::Extent;
 use crate::scene::{Action, SceneBody, Scripted};
-use crate::sim::bodies::{Coordinates, Input, Truth};
+use crate::sim::bodies::{Coordinates, Input, Origin, Truth};
 use crate::sim::integrators::{GENERAL_METHODS, Override, StepFailure};
 use crate::sim::stability::{NormalMode, normal_modes};
 use crate::sim::{Solver, Stepper};
@@ -159,6 +159,14 @@ impl BodyTruth {
             .filter(is_parameter)
             .for_each(|it| it.action.apply_to(&mut *body, it.at_s));
         body
+    }
+
+    /// Whether the motion depends on the time of the run: under a law that reads it, or after a target that moves.
+    pub(super) fn is_driven(&self) -> bool {
+        let reads_time =
+            matches!(&self.body.kind.origin, Origin::Law(equations) if equations.reads_time());
+        let pursuit = self.start(Solver::Truth).pursuit(0.0);
+        reads_time || pursuit.is_some_and(|pursuit| !pursuit.is_still)
     }
 
     /// Whether the body is judged by its bounces, up to a first input.

@@ -315,11 +315,13 @@ impl AnalysisWorker {
             &self.request;
         let (tick_hz, meter) = (*tick_hz, Arc::<Meter>::default());
         if let Some(&(spec, lane)) = entries.get(self.judged) {
+            let begins_later = by_hand.starts_at_s() > 0.0;
             let Some(judge) = self.judge.clone() else {
                 let scene = by_hand.applied_to(scene);
                 return Some(Sliced::new(meter.clone(), async move {
                     let horizon_s = horizon_s(&scene);
-                    AnswerPart::Judge(Judge::find(&scene, 1.0, horizon_s, meter).await.into())
+                    let judge = Judge::find(&scene, 1.0, horizon_s, meter).await;
+                    AnswerPart::Judge(judge.beginning_later(begins_later).into())
                 }));
             };
             let known = self.of_lanes.iter().find(|(id, _)| Some(*id) == lane);
@@ -329,7 +331,7 @@ impl AnalysisWorker {
                 let meter = judge.meter().clone();
                 return Some(Sliced::new(meter.clone(), async move {
                     let judge = Judge::find(&scene, 1.0, judge.horizon_s(), meter).await;
-                    AnswerPart::JudgeOfLane(lane, judge.into())
+                    AnswerPart::JudgeOfLane(lane, judge.beginning_later(begins_later).into())
                 }));
             }
             // Work that earlier verdicts did not use is left for later ones.
@@ -361,12 +363,6 @@ impl AnalysisWorker {
             AnswerPart::JudgeOfLane(lane, judge) => self.of_lanes.push((lane, judge)),
             AnswerPart::Verdict(verdict) => {
                 let starts_at_s = self.request.by_hand.starts_at_s();
-                let bodies = &self.request.scene.bodies;
-                let is_driven = |body: usize| bodies[body].kind.is_driven(&bodies[body].values);
-                let verdict = match starts_at_s > 0.0 {
-                    true => Judge::without_driven(*verdict, is_driven),
-                    false => *verdict,
-                };
                 self.verdicts[self.judged] = Some(verdict.starting_at(starts_at_s));
                 self.judged += 1;
             }

@@ -99,20 +99,6 @@ pub struct Kind {
     pub batch: BatchFn,
 }
 
-impl Kind {
-    /// Whether a body with these values moves otherwise at another time of day: under a law that reads `t`, or after a
-    /// target that moves.
-    pub fn is_driven(&self, values: &[f64]) -> bool {
-        let moves = |key: &str| self.parameter(key).is_some_and(|(index, _)| values[index] != 0.0);
-        match &self.origin {
-            Origin::Law(equations) => equations.reads_time(),
-            Origin::Table | Origin::Custom(_) | Origin::Net(_) => {
-                moves("ramp_m_per_s") || moves("sine_m")
-            }
-        }
-    }
-}
-
 /// The source of a kind's equations.
 #[derive(Clone, Debug)]
 pub enum Origin {
