@@ -84,7 +84,7 @@ pub(super) async fn follow_bounces(
         found.gap = gap(&mut *truth.start(Solver::Truth), &heights, tick_hz);
     }
     let is_known = exact.advance(0.0, until_s - rest_s, 1).is_ok();
-    let rests = is_known && !is_cut && exact.q()[0] == 0.0 && exact.v()[0] == 0.0;
+    let rests = is_known && exact.q()[0] == 0.0 && exact.v()[0] == 0.0;
     let is_up = found.sinks_at_s.is_none() && highest_last > LIES * highest.max(1.0);
     found.never_rests = (rests && is_up).then_some(highest_last);
     run
