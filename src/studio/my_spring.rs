@@ -108,12 +108,14 @@ impl MySpring {
             return None;
         }
         let split = omega * libm::sqrt((1.0 - ratio * ratio).abs());
+        // The product of both rates is ω², and their difference would lose digits under strong damping.
+        let slowest = omega * omega / (decay + split);
         let is_far = |t: f64| {
             let place = if ratio < 1.0 {
                 let (cos, sin) = (libm::cos(split * t), libm::sin(split * t));
                 libm::exp(-decay * t) * (cos + decay / split * sin)
             } else if ratio > 1.0 {
-                let [slow, fast] = [split - decay, -split - decay].map(|s| libm::exp(s * t));
+                let [slow, fast] = [slowest, decay + split].map(|rate| libm::exp(-rate * t));
                 (slow + fast + decay / split * (slow - fast)) / 2.0
             } else {
                 libm::exp(-decay * t) * (1.0 + omega * t)
@@ -127,10 +129,7 @@ impl MySpring {
                 let last = libm::floor(-libm::log(SETTLED) / (decay * turn_s));
                 (last * turn_s, (last + 1.0) * turn_s)
             }
-            false => {
-                let slowest = omega * omega / (decay + split);
-                (0.0, 20.0 / slowest)
-            }
+            false => (0.0, 20.0 / slowest),
         };
         for _ in 0..200 {
             let middle_s = far_s.midpoint(near_s);
@@ -284,6 +283,10 @@ mod tests {
             assert!((spring.overshoot() - (-least).max(0.0)).abs() < 1e-6, "{ratio}: {least}");
             assert!((settles_s - last_far_s).abs() < 1e-3, "{ratio}: {settles_s} {last_far_s}");
         }
+        let stiff = MySpring::of_frequency(1.0, 1.0, 1e9);
+        let creeps_s = libm::log(1.0 / SETTLED) * 2e9 / TAU;
+        let part = stiff.settles_s().expect("it is damped") / creeps_s;
+        assert!((part - 1.0).abs() < 1e-9, "{part}");
         let undamped = MySpring::of_frequency(1.0, 1.0, 0.0);
         assert_eq!((undamped.overshoot(), undamped.settles_s()), (1.0, None));
         assert_eq!(undamped.response_in_words(), "overshoots 100 %, never settles");
