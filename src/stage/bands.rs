@@ -1,14 +1,14 @@
 //! Bands of lanes one below the other: the name and the verdict above each body, and a card with the lane's code.
 
-use super::captions::{self, plate, text};
+use super::captions::{self, Chip, plate, text};
 use super::moment::DrawContext;
 use super::{Align, Label, Picture, Rect, breakpoints, chart};
 use crate::look::palette::{Rgba, fade};
-use crate::measure::{Outcome, Severity};
+use crate::measure::Outcome;
 use crate::run::MenuIndex;
 use crate::run::race::Entrant;
 use crate::sim::number::{counted, significant};
-use crate::studio::lines_of;
+use crate::studio::bare_lines;
 
 /// Width of the column of cards relative to the stage, and its least and greatest width in points.
 const COLUMN: f32 = 0.25;
@@ -18,8 +18,10 @@ const STRIP: f32 = 60.0;
 /// Distance of a card from the sides of its room, from its head and foot, and of its words from its rim, in points.
 const AROUND: [f32; 2] = [18.0, 3.0];
 const PADDING: [f32; 2] = [11.0, 8.0];
-/// Sizes of code from best to worst, and distance of its lines and width of its letters relative to them.
-const SIZES: [f32; 9] = [18.0, 16.0, 14.0, 13.0, 12.0, 11.0, 10.0, 9.0, 8.5];
+/// Sizes of code from best to worst in points, the last, and distance of its lines and width of its letters relative to
+/// its size.
+const SIZES: [f32; 9] = [18.0, 16.0, 14.0, 13.0, 12.0, 11.0, 10.0, 9.0, LEAST];
+const LEAST: f32 = 8.5;
 const LEADING: f32 = 1.22;
 const LETTER: f32 = 0.602;
 /// Size of words below code, mean width of their letters, their height, and that of the bar below them, in points.
@@ -83,7 +85,7 @@ pub(super) fn head(
     let entry = moment.studio.entry(entrant);
     let left = captions::left_of(cell);
     let name = moment.studio.lane_name(entry);
-    let found = verdict(moment, entry, entrant, swing_m);
+    let found = verdict(moment, entrant, swing_m);
     let wide = |[_, letter]: [f32; 2], words: &str| letter * words.chars().count() as f32;
     let words = found.as_ref().map_or("", |(words, _)| words);
     let whole = wide(NAME, &name) + BETWEEN + wide(VERDICT, words);
@@ -100,32 +102,25 @@ pub(super) fn head(
     }
 }
 
+/// The halt of a lane's body, or else the verdict with its sign, in its colour.
 fn verdict(
     moment: &DrawContext<'_>,
-    entry: MenuIndex,
     entrant: &Entrant,
     swing_m: Option<f64>,
 ) -> Option<(String, Rgba)> {
-    let studio = moment.studio;
     let body = &entrant.lane.bodies()[0];
     if let Some(halt) = body.halted() {
         let severity = Outcome::of_halt(halt).severity();
         return Some((halt.fate(), moment.palette.of_severity(severity)));
     }
-    let found = studio.viewer.verdict_from_here(&studio.deck, entry)?;
-    let (outcome, severity) = (found.outcome(), found.outcome().severity());
-    if severity == Severity::Unknown {
-        return None;
-    }
     let unit = body.coordinates().at(0).shown_unit();
-    let words = match swing_m {
-        Some(swing_m) => found.for_the_eye(swing_m, unit),
-        None => found.to_string(),
-    };
-    let tone = moment.palette.of_severity(severity);
-    let is_current = studio.viewer.is_judged_now(&studio.deck, entry);
-    let tone = if is_current { tone } else { fade(tone, crate::look::palette::STALE) };
-    Some((format!("{} {words}", outcome.sign().glyph()), tone))
+    let Chip { sign, colours, verdict, .. } = Chip::in_words(moment, 0, entrant, |verdict| {
+        vec![match swing_m {
+            Some(swing_m) => verdict.for_the_eye(swing_m, unit),
+            None => verdict.to_string(),
+        }]
+    })?;
+    Some((format!("{sign} {verdict}"), colours[0]))
 }
 
 /// The code of a lane, laid out in its room.
@@ -151,9 +146,9 @@ impl Card {
         });
         let [width, height] =
             [0, 1].map(|axis| room.size()[axis] as f32 - 2.0 * (AROUND[axis] + PADDING[axis]));
-        let has_room = height >= 2.0 * LEADING * SIZES[8] + ROW + BAR;
+        let has_room = height >= 2.0 * LEADING * LEAST + ROW + BAR;
         let below = if figures.is_some() && has_room { ROW + BAR } else { 0.0 };
-        let code = lines_of(&entrant.spec);
+        let code = bare_lines(entrant.spec.method);
         let close: Vec<String> = code.iter().map(|line| closed_up(line)).collect();
         let fitted = SIZES.into_iter().find_map(|size| {
             let letters = (width / (LETTER * size)) as usize;
@@ -227,7 +222,7 @@ impl Card {
     }
 }
 
-/// Draws the cards, and between two neighbours of the same two lines in two orders the threads that cross.
+/// Draws the cards. If two neighbours have the same two lines in two orders, threads join the equal lines.
 pub(super) fn draw(picture: &mut Picture, moment: &DrawContext<'_>, stage: Rect, cards: &[Card]) {
     cards.iter().for_each(|card| card.draw(picture, moment, stage));
     for pair in cards.windows(2) {

@@ -7,7 +7,7 @@ use super::sketch::{Camera, rounded};
 use super::{Align, Label, Picture, Rect, breakpoints};
 use crate::look::Look;
 use crate::look::palette::{Palette, Rgba, STALE, fade};
-use crate::measure::{Outcome, Severity};
+use crate::measure::{Outcome, Severity, Verdict};
 use crate::run::Checked;
 use crate::run::race::{Entrant, Halt, LaneBody};
 use crate::scene::Mark;
@@ -412,11 +412,11 @@ pub(super) fn foot_of_head(rect: Rect) -> f32 {
 }
 
 /// The verdict on the method, on one line.
-struct Chip {
-    sign: &'static str,
+pub(super) struct Chip {
+    pub(super) sign: &'static str,
     /// Colours of the sign and of the rim.
-    colours: [Rgba; 2],
-    verdict: String,
+    pub(super) colours: [Rgba; 2],
+    pub(super) verdict: String,
     /// A shorter version.
     brief: Option<String>,
 }
@@ -424,6 +424,16 @@ struct Chip {
 impl Chip {
     /// The chip of a body under a lane's method, if its verdict is known.
     fn of(moment: &DrawContext<'_>, index: usize, entrant: &Entrant) -> Option<Self> {
+        Self::in_words(moment, index, entrant, |verdict| verdict.wordings(false))
+    }
+
+    /// Like [`Chip::of`], in the first of these wordings of the verdict, with the second as the shorter version.
+    pub(super) fn in_words(
+        moment: &DrawContext<'_>,
+        index: usize,
+        entrant: &Entrant,
+        wordings: impl FnOnce(&Verdict) -> Vec<String>,
+    ) -> Option<Self> {
         let studio = moment.studio;
         let entry = studio.entry(entrant);
         let halt = entrant.lane.bodies()[index].halted();
@@ -435,7 +445,7 @@ impl Chip {
         }
         let is_current = studio.viewer.is_judged_now(&studio.deck, entry);
         let tone = moment.palette.of_severity(severity);
-        let mut wordings = verdict.wordings(false).into_iter();
+        let mut wordings = wordings(verdict).into_iter();
         let words = halt.map(Halt::fate).or_else(|| wordings.next())?;
         Some(Self {
             sign: outcome.sign().glyph(),

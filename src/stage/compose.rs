@@ -368,7 +368,7 @@ impl BodyCell<'_> {
         if Look::of(truth).has_ground() && truth.halted().is_none() {
             apex::draw(picture, camera, (moment, !lost.is_empty()), self.front, index);
         }
-        if shows_ghost && (studio.mode() == Mode::Solo || self.is_banded()) && index == 0 {
+        if shows_ghost && self.is_wide() && index == 0 {
             let bead = ghost.outline.marks.iter().find_map(|mark| match mark {
                 Mark::Disc { radius, .. } => Some(camera.size(*radius)),
                 _ => None,
@@ -422,9 +422,14 @@ impl BodyCell<'_> {
         !self.moment.bands.is_empty()
     }
 
+    /// Whether the stage of the cell is as wide as that of a lane alone: in solo mode, and in a band.
+    fn is_wide(&self) -> bool {
+        self.moment.studio.mode() == Mode::Solo || self.is_banded()
+    }
+
     /// Whether the body has outgrown the stage, so that landmarks show its scale.
     fn has_outgrown(&self) -> bool {
-        (self.moment.studio.mode() == Mode::Solo || self.is_banded())
+        self.is_wide()
             && self.view.zoomed_as == self.index
             && !self.shows_futures()
             && universe::is_shown(self.moment, self.view, &self.camera)

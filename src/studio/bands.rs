@@ -7,8 +7,6 @@ use super::display::Arrangement;
 use super::viewer::Viewer;
 use crate::run::MenuIndex;
 use crate::run::race::Mode;
-use crate::scene::LaneSpec;
-use crate::tools::source_code::bare_lines;
 
 /// Number of bands at first.
 const AT_FIRST: usize = 2;
@@ -17,19 +15,13 @@ impl Studio {
     /// Returns the menu indices of the lanes that have a band on the stage, from top to bottom. There are none unless
     /// the scene opens in bands, and the stage alone shows a race.
     pub fn bands(&self) -> Vec<MenuIndex> {
-        let is_alone = self.loops.is_none() && !self.display().enlarged;
-        if is_alone { bands(&self.deck, &self.viewer) } else { Vec::new() }
+        if self.loops.is_none() { bands(&self.deck, &self.viewer) } else { Vec::new() }
     }
 
     /// Whether a person has chosen the bands.
     pub fn has_chosen_bands(&self) -> bool {
         self.view().bands.is_some()
     }
-}
-
-/// Returns the lines of a method's code, without remarks, for a reader who sees what it does.
-pub fn lines_of(spec: &LaneSpec) -> Vec<String> {
-    bare_lines(spec.method)
 }
 
 pub(super) fn bands(deck: &Deck, viewer: &Viewer) -> Vec<MenuIndex> {
@@ -39,6 +31,7 @@ pub(super) fn bands(deck: &Deck, viewer: &Viewer) -> Vec<MenuIndex> {
         && deck.mode() == Mode::Race
         && display.arrangement == Arrangement::Overlay
         && !display.measure
+        && !display.enlarged
         && viewer.tour.is_none();
     let has_lane = |entry: &MenuIndex| are_shown && deck.lane_of(*entry).is_some();
     match &viewer.view.bands {

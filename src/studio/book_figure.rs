@@ -14,13 +14,13 @@ use crate::scene::SCENES;
 pub struct BookFigure {
     /// Its number in the book.
     pub number: &'static str,
-    /// What it shows, in a sentence.
+    /// Its caption, without the number.
     pub title: &'static str,
     /// The built-in scene.
     pub scene: &'static str,
     /// The ids of its methods.
     pub methods: &'static [&'static str],
-    /// Whether it shows the speed rather than the place.
+    /// The quantity that it shows.
     pub quantity: Quantity,
     /// Length of the run, in seconds.
     pub seconds: f64,
@@ -55,7 +55,7 @@ const fn of_spring(
     BookFigure { number, title, scene: "spring", methods, quantity, seconds: 6.0, view }
 }
 
-/// The figures in their order. The last digit of a number is the key that opens it from the list.
+/// The figures in their order.
 pub static BOOK_FIGURES: [BookFigure; 7] = [
     of_ship("7-2", "speed by Euler's method", EULER, 10.0, [[0.0, 10.2], [0.0, 14.4]]),
     of_ship("7-3", "the same, from 6.5 to 8.5 s", EULER, 8.5, ZOOM),
@@ -71,12 +71,16 @@ pub static BOOK_FIGURES: [BookFigure; 7] = [
     ),
 ];
 
-/// Index of the first figure's digit among the digits.
-const FIRST_DIGIT: usize = 2;
+impl BookFigure {
+    /// Returns the key that opens the figure from the list, which is the last digit of its number.
+    pub fn digit(&self) -> &'static str {
+        &self.number[self.number.len() - 1..]
+    }
+}
 
 /// Returns the index of the figure that a digit opens.
 pub(super) fn figure_of_digit(digit: usize) -> Option<usize> {
-    digit.checked_sub(FIRST_DIGIT).filter(|index| *index < BOOK_FIGURES.len())
+    BOOK_FIGURES.iter().position(|figure| figure.digit() == digit.to_string())
 }
 
 /// Opens the scene of this figure at its end, in the book's view of it. Time stands still.

@@ -61,10 +61,10 @@ mod work;
 mod zoom_pan;
 
 pub use crate::measure::{FutureCurve, FutureMoment, OneStep, Slope};
+pub use crate::tools::source_code::bare_lines;
 pub use ahead::{
     exact_future, future_of_lane, futures, one_step, orbit, shows_futures, without_futures,
 };
-pub use bands::lines_of;
 pub use book_figure::{BOOK_FIGURES, BookFigure};
 pub use clouding::{accept_cloud, cloud_refusal, cloud_request, complete_clouds, shown_cloud};
 pub use command::{
@@ -144,6 +144,7 @@ impl Studio {
     fn starting_with(next: StartSettings) -> Self {
         let scene_list = SceneList::of(&next.opened);
         let mut studio = Self::of_deck(Deck::new(scene_list, Run::starting_with(next)));
+        // Only the stage alone has bands.
         studio.viewer.preferences.display.measure &= !studio.scene().opens_in_bands;
         studio
     }

@@ -1,17 +1,17 @@
 //! A person's own lines, typed or pasted in the window: a rule opens as a scene at three frame rates, a method races in
 //! the open scene.
 
-use std::path::Path;
-
 use super::Studio;
-use super::opening::{open_with, race_own_method};
+use super::opening::{open_as, race_own_method};
 use super::viewer::{Dialog, ReadLines, Viewer};
 use crate::run::race::Mode;
 use crate::scene::{LaneSpec, SceneErrors, is_rule};
 use crate::tools::Rule;
 use crate::tools::rule::rule_scene;
 
-/// Name of the lines, as that of a file.
+/// Name that a rule's scene has on the list of scenes.
+const MY_LINES: &str = "my lines";
+/// Name of the lines in messages, as that of a file.
 const NAME: &str = "mine.step";
 /// Frames per second for which a rule is written.
 const FPS: u32 = 60;
@@ -35,10 +35,7 @@ pub(super) fn run_lines(studio: &mut Studio) {
     let done = match is_rule(text.as_bytes()) {
         true => rule_scene(NAME, &text, FPS.into()).map(|scene| {
             studio.loops = None;
-            let Studio { deck, viewer, .. } = &mut *studio;
-            let index = deck.scene_list.add_or_replace(Path::new("my lines"), scene);
-            open_with(deck, viewer, index, |next| next.mode = Mode::Race);
-            deck.running = true;
+            open_as(&mut studio.deck, &mut studio.viewer, MY_LINES, scene, Mode::Race);
         }),
         false => {
             LaneSpec::from_step(NAME, text.as_bytes()).map(|lane| race_own_method(studio, lane))

@@ -114,9 +114,7 @@ pub fn open_advised_spring(studio: &mut Studio, scene: Result<Scene, SceneErrors
 fn open_described(deck: &mut Deck, viewer: &mut Viewer, scene: Result<Scene, SceneErrors>) {
     match scene {
         Ok(scene) => {
-            let index = deck.scene_list.add_or_replace(Path::new(MY_SPRING), scene);
-            open_with(deck, viewer, index, |next| next.mode = Mode::Solo);
-            deck.running = true;
+            open_as(deck, viewer, MY_SPRING, scene, Mode::Solo);
             viewer.preferences.display.instrument = Instrument::Advice;
             viewer.preferences.display.measure = true;
         }
@@ -125,6 +123,13 @@ fn open_described(deck: &mut Deck, viewer: &mut Viewer, scene: Result<Scene, Sce
             viewer.dialog = Some(Dialog::Mistakes { file: MY_SPRING.into(), report });
         }
     }
+}
+
+/// Opens a scene that is not a file, and runs it in this mode. It has this name on the list of scenes.
+pub(super) fn open_as(deck: &mut Deck, viewer: &mut Viewer, name: &str, scene: Scene, mode: Mode) {
+    let index = deck.scene_list.add_or_replace(Path::new(name), scene);
+    open_with(deck, viewer, index, |next| next.mode = mode);
+    deck.running = true;
 }
 
 /// Replaces the scene of a changed file. If the scene is open and equal, its run continues. If it has the same lanes

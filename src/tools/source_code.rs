@@ -119,8 +119,8 @@ pub fn step_lines(method: &Method) -> Result<String, NoSourceCode> {
     Ok(header.collect::<String>() + "\n" + method.code)
 }
 
-/// Returns the statements of a method for a reader who sees what it does: without remarks, blank lines and `let`. Where
-/// the acceleration is taken once, at the start of the step, it is called `a`.
+/// Returns the statements of a method without remarks, blank lines and `let`, for a card beside its motion. Where the
+/// acceleration is taken once, at the start of the step, it is called `a`.
 pub fn bare_lines(method: &Method) -> Vec<String> {
     let text = method.own_text().unwrap_or(method.code);
     let is_said = |line: &&str| {

@@ -63,7 +63,7 @@ pub fn instrument_svg(studio: &crate::studio::Studio) -> Option<String> {
     panels::svg(studio)
 }
 
-/// Whole frames, and what the tests of this room share.
+/// Whole frames, and the tools of the tests of this room.
 #[cfg(test)]
 mod tests {
     mod legibility;

@@ -55,8 +55,8 @@ const PARAMETERS: [Of; 7] = [
 /// √k of a soft wall, in radians per second, at 4.77 Hz.
 const SOFT: f64 = 30.0;
 
-/// The largest number of flights that a truth follows one by one from one moment to the next; what comes after them is
-/// not known.
+/// The largest number of flights that a truth follows one by one from one moment to the next. After more flights the
+/// state is not known.
 const MAX_FLIGHTS: u32 = 20_000;
 
 /// A flight shorter than this, in seconds, ends the bouncing.
@@ -90,7 +90,7 @@ pub struct Ball {
 pub struct Walk(Cell<Flights>);
 
 impl PartialEq for Walk {
-    /// Balls that differ only in what they remember are equal.
+    /// Balls that differ only in their memory are equal.
     fn eq(&self, _: &Self) -> bool {
         true
     }
@@ -102,7 +102,9 @@ struct Flights {
     from: [f64; 5],
     /// Seconds since then, and the rounding of their sum.
     t: [f64; 2],
+    /// The state right after the last impact, or at the start.
     at: [f64; 2],
+    /// Whether the flights have become too short to follow.
     rests: bool,
 }
 

@@ -15,11 +15,11 @@ pub(super) fn show(ui: &Ui, over: Rect, commands: &mut Vec<Command>) {
     parts::dialog("The figures of the book", over).show(ui.ctx(), |ui| {
         let width = WIDTH.min(over.width() - 40.0).max(40.0);
         ui.set_min_width(width);
-        for (index, BookFigure { number, title, .. }) in BOOK_FIGURES.iter().enumerate() {
-            let key = number.rsplit('-').next().unwrap_or(number);
+        for (index, figure) in BOOK_FIGURES.iter().enumerate() {
+            let BookFigure { number, title, .. } = figure;
             ui.horizontal(|ui| {
                 let (rect, _) = ui.allocate_exact_size(egui::vec2(26.0, ROW), egui::Sense::hover());
-                keycap::paint(ui, rect.left(), rect.center().y, key, palette(ui).text);
+                keycap::paint(ui, rect.left(), rect.center().y, figure.digit(), palette(ui).text);
                 let words = format!("Figure {number}: {title}");
                 let button = Button::new(words).truncate().min_size(egui::vec2(0.0, ROW - 4.0));
                 if ui.add(button).clicked() {
