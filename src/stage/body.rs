@@ -64,8 +64,15 @@ impl OutlineView<'_> {
         OutlineView { outline: &outline, ..*self }.draw_below_exact(picture, nothing);
     }
 
-    /// Writes a lane's number on a body of this colour, if the body is a single part with enough room.
-    pub(super) fn number(&self, picture: &mut Picture, number: usize, on: Rgba) {
+    /// Writes a lane's number on a body of this colour, after that of its method `before`, if the body is a single part
+    /// with enough room.
+    pub(super) fn number(
+        &self,
+        picture: &mut Picture,
+        before: Option<usize>,
+        number: usize,
+        on: Rgba,
+    ) {
         let mut sizes = self.outline.marks.iter().filter_map(|mark| match *mark {
             Mark::Sprung => Some(0.42 * self.camera.block),
             Mark::Disc { radius, .. } => Some(1.1 * self.camera.size(radius)),
@@ -77,7 +84,11 @@ impl OutlineView<'_> {
         };
         let at = self.camera.points(self.outline.at);
         let colour = if is_bright(on) { [16, 24, 32, 255] } else { [255; 4] };
-        let label = Label::new(at, Align::Centre, size.min(26.0), colour, number.to_string());
+        let (words, size) = match before {
+            Some(before) => (format!("{before} → {number}"), 0.6 * size),
+            None => (number.to_string(), size),
+        };
+        let label = Label::new(at, Align::Centre, size.min(26.0), colour, words);
         picture.labels.push(label.strong());
     }
 

@@ -338,7 +338,8 @@ impl BodyCell<'_> {
             if self.lanes.len() <= MAX_NUMBERED {
                 // In solo mode, a body has a number only if a key picks its method.
                 if studio.mode() == Mode::Race || entry < DIGITS {
-                    shown.number(picture, entry + 1, colour);
+                    let before = studio.deck.switched_from(lane).filter(|it| *it < DIGITS);
+                    shown.number(picture, before.map(|it| it + 1), entry + 1, colour);
                 }
                 numbered = Some(at);
             }
@@ -495,6 +496,13 @@ impl BodyCell<'_> {
         {
             captions::write_failed_check(picture, camera.rect, failed, palette);
         }
+        if let Some(beside) = deck.run_beside()
+            && let Some((body, q)) = beside.body(front.id, index)
+        {
+            let name = format!("{:.3} Hz", beside.tick_hz());
+            let outline = Look::of(body).outline(moment.t, &q);
+            self.draw_beside(picture, lift, (outline, &name, palette.dim));
+        }
         let Some(compared) = deck.compared().filter(|_| front.id == deck.selected().id) else {
             return;
         };
@@ -503,11 +511,16 @@ impl BodyCell<'_> {
         }
         let Some((body, q)) = compared.body(deck.scene(), &front.spec, index) else { return };
         let outline = Look::of(body).outline(moment.t, &q);
-        let style = LaneStyle { colour: palette.accent, dash: SOLID, fill: 0.0 };
+        self.draw_beside(picture, lift, (outline, compared.name(), palette.accent));
+    }
+
+    /// Draws the body of another run, hollow and named.
+    fn draw_beside(&self, picture: &mut Picture, lift: f32, of: (Outline, &str, Rgba)) {
+        let ((outline, name, colour), camera, palette) = (of, &self.camera, self.moment.palette);
+        let style = LaneStyle { colour, dash: SOLID, fill: 0.0 };
         OutlineView { outline: &outline, camera, palette }.draw_behind(picture, style);
-        let named = (compared.name(), palette.accent);
         let beside = hull::half_height(&outline, camera).max(lift);
-        captions::ghost_name(picture, camera, (outline.at, beside), named, palette);
+        captions::ghost_name(picture, camera, (outline.at, beside), (name, colour), palette);
     }
 
     /// Draws the trail of a lane's body that is now at `from`, unless the trail leaves the cell. Returns the badge

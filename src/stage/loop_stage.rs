@@ -242,7 +242,8 @@ impl<'a> LoopBand<'a> {
         }
         let drawn = self.shown_outline(frame);
         self.body(picture, &camera, &drawn);
-        self.outline_view(&camera, &drawn).number(picture, digit_of(self.place), self.colour);
+        let seen = self.outline_view(&camera, &drawn);
+        seen.number(picture, None, digit_of(self.place), self.colour);
         self.words(picture, &camera, frame, [&drawn, &exact]);
         self.is_recorded().then_some(camera)
     }

@@ -29,6 +29,7 @@ pub(super) fn act(deck: &mut Deck, viewer: &mut Viewer, action: Action) {
     let was_past = deck.run.is_in_past();
     let replaces = deck.run.replaces_open_action(&action);
     let (is_input, rests) = (action.input().is_some(), deck.comes_to_rest(viewer.motion()));
+    let before = matches!(action, Action::TickHz(_)).then(|| deck.race().clone());
     let (done, mut told) = deck.with_notices(|run, notices| run.act_within(action, notices));
     deck.edits -= u64::from(replaces);
     let Some(done) = done else {
@@ -36,6 +37,10 @@ pub(super) fn act(deck: &mut Deck, viewer: &mut Viewer, action: Action) {
         return viewer.set_notice_parts(told);
     };
     deck.edits += 1;
+    match before {
+        Some(before) => deck.keep_beside(before),
+        None => deck.run_beside = None,
+    }
     // The run starts, so that the person sees the effect of an input that was given at rest.
     deck.running |= is_input && rests;
     if let Action::Lane { .. } = done.action {

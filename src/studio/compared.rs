@@ -2,7 +2,7 @@
 //! ghost at the same moment.
 
 use crate::run::diff::Difference;
-use crate::run::race::{Interpolation, LaneBody, Mode};
+use crate::run::race::{Interpolation, LaneBody, Mode, Race};
 use crate::run::trace::last_tick;
 use crate::run::{Run, StartSettings};
 use crate::scene::{LaneSpec, Scene};
@@ -92,13 +92,7 @@ impl Compared {
         if own.kind.id != scene.bodies[index].kind.id || body.halted().is_some() {
             return None;
         }
-        let h = race.last_step_s();
-        let before_s = race.t() - self.at_s;
-        let q = match (ROUNDING_S..h).contains(&before_s) {
-            true => Interpolation::Monotone.coordinates(body, 1.0 - before_s / h, h),
-            false => body.stepper.q().to_vec(),
-        };
-        Some((body, q))
+        Some((body, placed_at(race, body, self.at_s)))
     }
 
     /// Moves the recording to its first tick at or after the moment `at_s` (s) that the run displays, forward by at
@@ -109,6 +103,16 @@ impl Compared {
         self.run.seek(tick);
         let ahead = tick.saturating_sub(self.run.race().tick()).min(MAX_TICKS);
         (0..ahead).for_each(|_| self.run.tick(&mut ()));
+    }
+}
+
+/// Returns the coordinates of a race's body at the moment `at_s` (s), which is within its last tick.
+pub(super) fn placed_at(race: &Race, body: &LaneBody, at_s: f64) -> Vec<f64> {
+    let h = race.last_step_s();
+    let before_s = race.t() - at_s;
+    match (ROUNDING_S..h).contains(&before_s) {
+        true => Interpolation::Monotone.coordinates(body, 1.0 - before_s / h, h),
+        false => body.stepper.q().to_vec(),
     }
 }
 

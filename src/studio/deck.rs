@@ -8,15 +8,19 @@ use super::compared::Compared;
 use super::display::{Display, View};
 use super::notices::Notices;
 use super::run_before::RunBefore;
+use super::run_beside::RunBeside;
 use super::scene_list::SceneList;
 use crate::measure::cloud::MAX_CLOUDS;
 use crate::run::past::Past;
-use crate::run::race::{Author, Entrant, Interpolation, Mode, Race};
+use crate::run::race::{Author, Entrant, Interpolation, JournalRow, Mode, Race};
 use crate::run::{
     Menu, MenuIndex, RecordingError, Run, StartSettings, link, recording_among, recording_text,
 };
 use crate::scene::{Action, LaneId, LaneSpec, Scene};
 use crate::sim::Clock;
+
+/// Time for which a switch of the method or a change of the tick rate is recent, in seconds.
+const SWITCHED_S: f64 = 1.5;
 
 /// A run that a person controls.
 pub struct Deck {
@@ -46,6 +50,8 @@ pub struct Deck {
     pub(super) compared: Option<Box<Compared>>,
     /// The run before the last restart, if it had another tick rate or method.
     pub(super) run_before: Option<Box<RunBefore>>,
+    /// The run as it goes on without the person's last change of the tick rate.
+    pub(super) run_beside: Option<Box<RunBeside>>,
     /// The run that the person left for the guide, while a stop of the guide is on the stage.
     pub(super) left: Option<Box<LeftRun>>,
 }
@@ -79,6 +85,7 @@ impl Deck {
             saved_edits: 0,
             compared: None,
             run_before: None,
+            run_beside: None,
             left: None,
         }
     }
@@ -152,6 +159,23 @@ impl Deck {
         let mut rows = race.journal().rows()[..race.done()].iter().rev();
         let tick = rows.find(|row| is_it(&row.action))?.tick;
         Some((to, self.run.times().t(tick)))
+    }
+
+    /// Returns the menu index of the method from which a lane was switched within the last moment. Returns `None` if
+    /// its last switch is longer ago.
+    pub fn switched_from(&self, lane: &Entrant) -> Option<MenuIndex> {
+        let race = self.race();
+        let switch = |row: &JournalRow| match &row.action {
+            Action::Lane { lane: id, spec } if *id == lane.id => Some((row.tick, *spec)),
+            _ => None,
+        };
+        let mut switches = race.journal().rows()[..race.done()].iter().rev().filter_map(switch);
+        let (tick, to) = switches.next()?;
+        let before = || self.run.start().entrant(lane.id).map(|entrant| entrant.spec);
+        let from = switches.next().map(|(_, spec)| spec).or_else(before)?;
+        let is_recent = race.t() - self.run.times().t(tick) <= SWITCHED_S;
+        (is_recent && from.method != to.method)
+            .then(|| self.entries().iter().position(|listed| listed.method == from.method))?
     }
 
     /// Returns the number of menu methods to show at first. They are the scene's methods, and all up to the last that
@@ -250,8 +274,28 @@ impl Deck {
         self.compared.as_deref()
     }
 
-    /// Moves the compared recording to the displayed moment (s) of the run.
+    /// Returns the solo run as it goes on without the person's last change of the tick rate. Returns `None` if the rate
+    /// was not changed, or if the person has acted otherwise since.
+    pub fn run_beside(&self) -> Option<&RunBeside> {
+        self.run_beside.as_deref()
+    }
+
+    /// Keeps the run before a change of the tick rate beside the run. Further changes within a moment belong to it.
+    pub(super) fn keep_beside(&mut self, before: Race) {
+        let is_recent = |it: &RunBeside| (0.0..=SWITCHED_S).contains(&(before.t() - it.from_s()));
+        let is_same = self.run_beside.as_deref().is_some_and(is_recent);
+        if before.mode() == Mode::Solo && before.tick() > 0 && !is_same {
+            self.run_beside = Some(RunBeside::new(before).into());
+        }
+        let tick_hz = self.race().tick_hz();
+        self.run_beside.take_if(|it| it.tick_hz() == tick_hz);
+    }
+
+    /// Moves the runs that are shown beside the run to its displayed moment (s).
     pub(super) fn follow_with_compared(&mut self, shown_s: f64) {
+        if let Some(beside) = &mut self.run_beside {
+            beside.go_to(shown_s);
+        }
         if let Some(compared) = &mut self.compared {
             compared.go_to(shown_s);
         }

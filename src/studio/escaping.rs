@@ -21,7 +21,7 @@ pub(super) struct Layer {
 
 /// What Escape takes away, one at a time, the foremost first. After these comes full screen, which only the driver can
 /// leave.
-pub(super) static LAYERS: [Layer; 10] = [
+pub(super) static LAYERS: [Layer; 11] = [
     Layer { name: "a body or the tick rate in hand", take: let_go },
     Layer { name: "dialog", take: |studio| studio.viewer.dialog.take().is_some() },
     Layer { name: "help", take: |studio| take(&mut studio.viewer.preferences.display.help) },
@@ -51,6 +51,10 @@ pub(super) static LAYERS: [Layer; 10] = [
     Layer {
         name: "comparison",
         take: |studio| studio.loops.is_none() && studio.deck.compared.take().is_some(),
+    },
+    Layer {
+        name: "run beside",
+        take: |studio| studio.loops.is_none() && studio.deck.run_beside.take().is_some(),
     },
     Layer { name: "loop lab", take: leave_loop_lab },
     Layer {
@@ -103,7 +107,7 @@ mod tests {
     use crate::run::diff::{Chosen, NotComparable, Tolerance, diff};
     use crate::run::trace::Made;
     use crate::scene::{Action, Scene};
-    use crate::studio::{HeldBody, Key, ViewCommand, command_for, show_comparison};
+    use crate::studio::{HeldBody, Key, RunBeside, ViewCommand, command_for, show_comparison};
 
     fn studio(is_race: bool, is_full_screen: bool) -> Studio {
         let mut studio = Studio::new(Scene::built_in("harbour").unwrap());
@@ -140,6 +144,10 @@ mod tests {
                 let found = diff::<_, _, NotComparable>(&mut a, &mut b, tolerance, &chosen);
                 show_comparison(studio, "other.toml", &found.unwrap(), other);
             }
+            "run beside" => {
+                let race = studio.race().clone();
+                studio.deck.run_beside = Some(RunBeside::new(race).into());
+            }
             "loop lab" => _ = studio.apply(LoopCommand::ToggleLab),
             "race" => _ = studio.apply(StageCommand::ToggleRace),
             other => panic!("{other}"),
@@ -157,6 +165,7 @@ mod tests {
             "instrument" => display.enlarged,
             "fan" => shows_futures(studio),
             "comparison" => studio.deck.compared.is_some(),
+            "run beside" => studio.deck.run_beside.is_some(),
             "loop lab" => studio.loops.is_some(),
             "race" => studio.mode() == Mode::Race,
             other => panic!("{other}"),
@@ -274,7 +283,7 @@ mod tests {
         assert!(asks(&mut studio).contains("not saved: `F5`"));
         studio.deck.note_saved();
         assert!(!asks(&mut studio).contains("F5"));
-        studio.apply(StageCommand::TickHz(30.into()));
+        studio.apply(RunCommand::Act(Action::Kick(2.0)));
         assert!(asks(&mut studio).contains("F5"), "it has changed since");
         studio.viewer.preferences.is_recorded = true;
         assert!(!asks(&mut studio).contains("F5"));

@@ -25,7 +25,7 @@ pub(super) fn follow(deck: &mut Deck, viewer: &mut Viewer, jump: Jump) {
     viewer.live.jump();
     if jump != Jump::ToAnotherTick {
         deck.let_go();
-        deck.run_before = None;
+        (deck.run_before, deck.run_beside) = (None, None);
         record_chosen_coordinates(deck, viewer);
     }
     if jump == Jump::ToAnotherRun {
@@ -62,8 +62,11 @@ pub(super) fn restart_keeping_run(deck: &mut Deck, viewer: &mut Viewer) -> bool 
     let is_edited = !Arc::ptr_eq(deck.run.session().scene(), &deck.run.next().scene);
     let keeps = is_by_hand(&deck.run) || is_edited;
     let (earlier, ending) = (deck.run_before.take(), EndingRun::of(&deck.run, deck.selected()));
+    let start = deck.run.start().clone();
     restart(deck, viewer, keeps.then_some("the restart"), |_| ());
     if !is_edited {
+        let beside = ending.as_ref().and_then(|it| it.beside(start, &deck.run, deck.selected()));
+        deck.run_beside = beside.map(Box::new);
         deck.run_before =
             ending.and_then(|ending| ending.before(&deck.run, deck.selected())).or(earlier);
     }

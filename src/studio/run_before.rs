@@ -1,8 +1,9 @@
 //! The run before the last restart, which the plots keep beside the present run for comparison.
 
+use super::run_beside::RunBeside;
 use crate::run::Run;
 use crate::run::past::History;
-use crate::run::race::{Author, Entrant};
+use crate::run::race::{Author, Entrant, Mode, Race};
 use crate::scene::{Action, LaneSpec};
 use crate::sim::TickRate;
 
@@ -48,6 +49,15 @@ impl EndingRun {
         let (began, until_s) = beginning(run, selected);
         let histories = run.past().histories(selected.id).to_vec();
         (run.end() > 0).then_some(Self { histories, until_s, began })
+    }
+
+    /// Returns the solo run from its start, at the tick rate and without the person's later actions, if the one that
+    /// has begun now differs from it in the tick rate alone.
+    pub(super) fn beside(&self, from: Race, run: &Run, selected: &Entrant) -> Option<RunBeside> {
+        let ((tick_hz, spec), now) = (self.began, beginning(run, selected).0);
+        let is_beside = from.mode() == Mode::Solo && now.0 != tick_hz && now.1 == spec;
+        let script = &run.session().scene().script;
+        is_beside.then(|| RunBeside::new(from.at_rate(tick_hz).with_script(script)))
     }
 
     /// The run for comparison with the one that has begun now, if the two differ.

@@ -1,6 +1,6 @@
 //! A spring with the user's own numbers: a field for each number, and a button that asks for advice on the spring.
 
-use egui::{Align2, Button, ComboBox, FontId, Id, Rect, RichText, Sense, Ui, vec2};
+use egui::{Align, Align2, Button, ComboBox, FontId, Id, Layout, Rect, RichText, Sense, Ui, vec2};
 
 use super::number_field::NumberField;
 use super::parts::dialog;
@@ -12,10 +12,20 @@ use crate::tools::source_code::Language;
 use crate::view::theme::{TYPE, palette};
 
 const TITLE: &str = "My spring";
-/// Width of a name, width of a number, and height of a line, in points.
+/// Width of a name, width of a number, height of a line, and width of a line, in points.
 const NAME: f32 = 118.0;
 const NUMBER: f32 = 150.0;
 const LINE: f32 = 22.0;
+const WIDTH: f32 = NAME + NUMBER + 8.0;
+/// Gap between the numbers and the spring that swings, and the frame of the dialog on all sides, in points.
+const BETWEEN: f32 = 16.0;
+const FRAME: f32 = 40.0;
+/// Height of the dialog's numbers, and of the curves below and beside them, in points.
+const NUMBERS: f32 = 480.0;
+const CURVES: f32 = 170.0;
+const WIDE_CURVES: f32 = 300.0;
+
+mod response;
 
 pub(super) fn show(
     ui: &Ui,
@@ -25,57 +35,70 @@ pub(super) fn show(
     commands: &mut Vec<Command>,
 ) {
     let ctx = ui.ctx();
+    let spring = studio.viewer.my_spring();
+    let is_wide = over.width() >= WIDTH + BETWEEN + response::WIDTH + FRAME;
+    let left = over.height() - NUMBERS - response::BESIDES_CURVES - FRAME;
+    let curves = if is_wide { WIDE_CURVES } else { left.min(CURVES) };
     dialog(TITLE, over).show(ctx, |ui| {
-        ui.set_width(NAME + NUMBER + 8.0);
-        ui.spacing_mut().item_spacing.y = 4.0;
-        let has_focus = ui.memory(|m| m.focused().is_some());
-        let is_new = is_new(ui);
-        let spring = studio.viewer.my_spring();
-        for (i, number) in SpringField::constant_fields(spring).into_iter().enumerate() {
-            line(ui, "", number, is_new && i == 0, commands);
-        }
-        ui.label(RichText::new("or as frequency and damping").color(palette(ui).dim));
-        for number in SpringField::motion_fields(spring) {
-            line(ui, "", number, false, commands);
-        }
-        let seen = spring.response_in_words();
-        ui.label(RichText::new(seen).color(palette(ui).dim));
-        if let Some((dialect, port)) = show_dialect(ui, spring)
-            && dialect.is_read()
-        {
-            for number in SpringField::of_dialect(dialect, &port.values, spring) {
-                line(ui, dialect.id, number, false, commands);
-            }
-        }
-        ui.label(RichText::new("release").color(palette(ui).dim));
-        for number in SpringField::of_release(spring) {
-            line(ui, "", number, false, commands);
-        }
-        ui.label(RichText::new("run").color(palette(ui).dim));
-        line(ui, "", SpringField::tick_rate(tick_hz), false, commands);
-        ui.add_space(6.0);
-        ui.horizontal(|ui| {
-            let words = format!("Run it at {tick_hz:.3} Hz");
-            let advise = ui.add(Button::new(RichText::new(words).size(TYPE).strong()));
-            // A number that the user has just clicked keeps the focus.
-            if !is_new && !has_focus && ui.memory(|m| m.focused().is_none()) {
-                // After a number was typed, Enter presses the button.
-                advise.request_focus();
-            }
-            if advise.clicked() {
-                commands.push(Command::Stage(StageCommand::OpenSpring));
-            }
-            if ui.button("Close (Esc)").clicked() {
-                commands.push(Command::View(ViewCommand::CloseDialog));
+        let columns = if is_wide { Layout::left_to_right(Align::Min) } else { Layout::default() };
+        ui.with_layout(columns, |ui| {
+            ui.vertical(|ui| numbers(ui, spring, tick_hz, commands));
+            if curves >= CURVES {
+                ui.add_space(if is_wide { BETWEEN } else { 0.0 });
+                ui.vertical(|ui| response::show(ui, spring, tick_hz, curves, commands));
             }
         });
-        let [others @ .., last] = Language::ALL.map(Language::name);
-        let told = format!(
-            "Under the recommended method, with its code in {} or {last}.",
-            others.join(", ")
-        );
-        ui.label(RichText::new(told).size(11.5).color(palette(ui).dim));
     });
+}
+
+/// Shows the numbers, and the buttons below them.
+fn numbers(ui: &mut Ui, spring: MySpring, tick_hz: TickRate, commands: &mut Vec<Command>) {
+    ui.set_width(WIDTH);
+    ui.spacing_mut().item_spacing.y = 4.0;
+    let has_focus = ui.memory(|m| m.focused().is_some());
+    let is_new = is_new(ui);
+    for (i, number) in SpringField::constant_fields(spring).into_iter().enumerate() {
+        line(ui, "", number, is_new && i == 0, commands);
+    }
+    ui.label(RichText::new("or as frequency and damping").color(palette(ui).dim));
+    for number in SpringField::motion_fields(spring) {
+        line(ui, "", number, false, commands);
+    }
+    let seen = spring.response_in_words();
+    ui.label(RichText::new(seen).color(palette(ui).dim));
+    if let Some((dialect, port)) = show_dialect(ui, spring)
+        && dialect.is_read()
+    {
+        for number in SpringField::of_dialect(dialect, &port.values, spring) {
+            line(ui, dialect.id, number, false, commands);
+        }
+    }
+    ui.label(RichText::new("release").color(palette(ui).dim));
+    for number in SpringField::of_release(spring) {
+        line(ui, "", number, false, commands);
+    }
+    ui.label(RichText::new("run").color(palette(ui).dim));
+    line(ui, "", SpringField::tick_rate(tick_hz), false, commands);
+    ui.add_space(6.0);
+    ui.horizontal(|ui| {
+        let words = format!("Run it at {tick_hz:.3} Hz");
+        let advise = ui.add(Button::new(RichText::new(words).size(TYPE).strong()));
+        // A number that the user has just clicked keeps the focus.
+        if !is_new && !has_focus && ui.memory(|m| m.focused().is_none()) {
+            // After a number was typed, Enter presses the button.
+            advise.request_focus();
+        }
+        if advise.clicked() {
+            commands.push(Command::Stage(StageCommand::OpenSpring));
+        }
+        if ui.button("Close (Esc)").clicked() {
+            commands.push(Command::View(ViewCommand::CloseDialog));
+        }
+    });
+    let [others @ .., last] = Language::ALL.map(Language::name);
+    let told =
+        format!("Under the recommended method, with its code in {} or {last}.", others.join(", "));
+    ui.label(RichText::new(told).size(11.5).color(palette(ui).dim));
 }
 
 /// Whether this is the first frame that shows the dialog.
@@ -151,6 +174,30 @@ mod tests {
     use super::*;
     use crate::scene::Scene;
     use crate::view::tests::testing::{TestWindow, button};
+
+    #[test]
+    fn the_spring_swings_beside_its_numbers_or_below_them_and_a_drag_changes_its_damping() {
+        for (size, is_shown) in
+            [([1280.0, 720.0], true), ([800.0, 600.0], true), ([390.0, 844.0], true)]
+                .into_iter()
+                .chain([([600.0, 400.0], false)])
+        {
+            let mut studio = Studio::new(Scene::built_in("spring").unwrap());
+            studio.apply(ViewCommand::AskForSpring);
+            let mut window = TestWindow::new(size);
+            let mut seen = |studio: &Studio| {
+                (0..3).for_each(|_| drop(window.panels(studio, Vec::new())));
+                window.panels(studio, Vec::new()).1.whole()
+            };
+            let all = seen(&studio);
+            let words: Vec<&str> = all.iter().map(|(_, words)| words.as_str()).collect();
+            for part in ["60 Hz: overshoots 94 %", "144 Hz: overshoots 94 %", "time, s"] {
+                assert_eq!(words.contains(&part), is_shown, "{part} at {size:?}: {words:?}");
+            }
+            let button = words.iter().any(|words| words.starts_with("Run it at"));
+            assert!(button || size[1] < 500.0, "{size:?}: {words:?}");
+        }
+    }
 
     #[test]
     fn an_error_message_moves_no_field_of_the_dialog() {

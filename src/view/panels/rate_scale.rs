@@ -29,6 +29,9 @@ const LOW_FOOT: f32 = 17.0;
 /// Height of the handle, and maximum distance from a mark at which the handle snaps to it, in points.
 const HANDLE: f32 = 24.0;
 const SNAP: f32 = 4.0;
+/// Time in seconds at which the handle pulses in the opening, and the width of its pulse in points.
+const PULSES_AT_S: f64 = 3.0;
+const PULSE: f32 = 16.0;
 
 /// Returns the height of the scale below the stage of a window of this size, or `None` if it does not show it.
 pub(super) fn height(studio: &Studio, window: Vec2) -> Option<f32> {
@@ -88,7 +91,7 @@ pub(super) fn show(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) {
             }
         }
     }
-    paint(ui, (room, line), tick_hz, &response);
+    paint(ui, (room, line), (tick_hz, pulse(studio)), &response);
     let is_held = response.dragged() || response.is_pointer_button_down_on();
     if response.hovered() || is_held {
         let icon = if is_held { CursorIcon::Grabbing } else { CursorIcon::Grab };
@@ -147,7 +150,18 @@ fn rate_at(line: Rect, x: f32) -> u32 {
     })
 }
 
-fn paint(ui: &Ui, (room, line): (Rect, Rect), tick_hz: TickRate, response: &Response) {
+/// Returns how far the one pulse of the handle has come, from 0 to 1, with which the opening invites to a drag.
+fn pulse(studio: &Studio) -> Option<f32> {
+    let part = (studio.race().t() - PULSES_AT_S) as f32;
+    (!studio.bands().is_empty() && (0.0..1.0).contains(&part)).then_some(part)
+}
+
+fn paint(
+    ui: &Ui,
+    (room, line): (Rect, Rect),
+    (tick_hz, pulse): (TickRate, Option<f32>),
+    response: &Response,
+) {
     let (palette, painter) = (palette(ui), ui.painter());
     let is_lit = response.hovered() || response.has_focus() || response.dragged();
     let quiet = if is_lit { palette.text } else { palette.dim };
@@ -171,6 +185,15 @@ fn paint(ui: &Ui, (room, line): (Rect, Rect), tick_hz: TickRate, response: &Resp
     if has_numbers {
         let (at, font) = (pos2(line.left(), room.top() + 1.0), FontId::proportional(12.5));
         painter.text(at, Align2::LEFT_TOP, "tick rate", font, palette.text);
+    }
+    if let Some(part) = pulse {
+        let stroke = Stroke::new(2.0, palette.accent.gamma_multiply(1.0 - part));
+        painter.rect_stroke(
+            handle.expand(PULSE * part),
+            7.0 + PULSE * part,
+            stroke,
+            egui::StrokeKind::Inside,
+        );
     }
     let rim = if is_lit { palette.text } else { palette.accent };
     let stroke = Stroke::new(2.0, rim);
