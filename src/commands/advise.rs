@@ -37,8 +37,8 @@ each criterion, advise finds the fewest substeps per tick, 1 to 64:
   accurate     over the scene no coordinate or velocity is off by more than 1 % of its amplitude
 
 The answer is one method: one that looks right, or else is bounded, or else accurate. It has the lowest
-cost; if equal, the largest reserve, then the fewest substeps. Explicit Euler comes after every other
-method of its cost.
+cost; if equal, the largest reserve, then a symplectic method before others, then the fewest substeps.
+Explicit Euler comes after every other method of its cost.
 The cost is evaluations of the acceleration per simulated second, times 2 to 3 for a linearised method,
 4 for one that iterates. The reserve is the factor by which the bodies may be stiffer, or the square of
 the factor by which the ticks may be slower, if that is less or the factor is 10, where its search ends:

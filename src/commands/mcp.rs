@@ -211,7 +211,11 @@ fn call(asked: &Value) -> Result<Value, Fault> {
     let cli = command_line();
     let command = cli.find_subcommand(name).ok_or_else(unknown)?;
     let nothing = Map::new();
-    let given = asked["arguments"].as_object().unwrap_or(&nothing);
+    let given = match &asked["arguments"] {
+        Value::Null => &nothing,
+        Value::Object(given) => given,
+        other => return Err((NO_ARGUMENTS, format!("`arguments` is an object, not {other}"))),
+    };
     let (mut options, mut operands) = (Vec::new(), Vec::new());
     for (key, value) in given {
         let Some((key, arg)) = arguments(command, fixed).find(|(name, _)| name == key) else {

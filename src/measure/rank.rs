@@ -1,12 +1,12 @@
 //! The order in which methods that meet a criterion are recommended, shared by command, library and window.
 //!
 //! The lowest [cost](CriterionMet::cost_per_s) comes first. Of equal costs a [last resort](is_last_resort) comes last;
-//! other ties go to the larger [reserve](CriterionMet::reserve), then to the fewest substeps, then to the place in the
-//! table of methods. A method with a reserve below [`LITTLE_RESERVE`] is passed over if another method has a larger
+//! other ties go to the larger [reserve](CriterionMet::reserve), then to a symplectic method, then to the fewest
+//! substeps, then to the place in the table of methods. A method with a reserve below [`LITTLE_RESERVE`] is passed over if another method has a larger
 //! reserve at up to [`TIMES_ITS_COST`] times the cost.
 
 use super::criterion::CriterionMet;
-use crate::sim::integrators::{METHODS, Method};
+use crate::sim::integrators::{Family, METHODS, Method};
 
 /// Reserve below which it counts as little, because a designer may well multiply the stiffness of a body by 1.5 in an
 /// afternoon.
@@ -31,8 +31,9 @@ struct Ranked<'a> {
     met: &'a CriterionMet,
     reserve: f64,
     is_last_resort: bool,
-    /// Key for equal costs and reserves, which has the substeps, the place in the table and the index.
-    ties: (u32, usize, usize),
+    /// Key for equal costs and reserves, which says whether the method is not symplectic, and has the substeps, the
+    /// place in the table and the index.
+    ties: (bool, u32, usize, usize),
 }
 
 impl Ranked<'_> {
@@ -63,7 +64,12 @@ impl<'a> Ranking<'a> {
                 met,
                 reserve: met.reserve().unwrap_or(0.0),
                 is_last_resort: is_last_resort(method),
-                ties: (met.substeps, place(method).unwrap_or(METHODS.len()), index),
+                ties: (
+                    method.family != Family::Symplectic,
+                    met.substeps,
+                    place(method).unwrap_or(METHODS.len()),
+                    index,
+                ),
             })
             .collect();
         all.sort_by(|a, b| {

@@ -33,8 +33,11 @@ fn first(costs: &[(f64, f64)]) -> Option<usize> {
 }
 
 #[test]
-fn equal_costs_rank_by_reserve_and_then_by_table_order() {
+fn equal_costs_rank_by_reserve_then_symplectic_and_then_by_table_order() {
     let unmet = (1e9, 1.0);
+    let alike = (60.0, 9.0);
+    assert_eq!(first(&[unmet, unmet, unmet, alike, alike]), Some(4), "velocity Verlet");
+    assert_eq!(first(&[unmet, unmet, unmet, alike, (60.0, 8.9)]), Some(3));
     assert_eq!(first(&[unmet, (60.0, 1.6), (60.0, 9.0)]), Some(2));
     assert_eq!(first(&[unmet, (60.0, 9.0), (60.0, 9.0)]), Some(1));
     assert_eq!(first(&[(60.0, 1.6), (61.0, 10.0)]), Some(0), "the cost comes before the reserve");
