@@ -1,65 +1,70 @@
 //! Regatta shows in real time what a numerical integrator does to a game's moving bodies, so that a developer picks
 //! the right one before shipping.
 //!
-//! # The house
-//!
-//! A room may use only the rooms in its third column, all of them above it. A test checks this.
-//!
-//! | room | holds | may name | open first |
-//! |---|---|---|---|
-//! | [`sim`] | states, equations, methods, bodies | - | `sim/integrators/rk4.rs` |
-//! | [`scene`] | scenes as text and value, actions, custom bodies | `sim` | `scene/mod.rs` |
-//! | [`table`] | a table reader: bytes to rows and numbers | `sim scene` | `table/mod.rs` |
-//! | [`run`] | a race against the truth: actions, past, recording | `sim table scene` | `run/mod.rs` |
-//! | [`tools`] | a log's method, springs for engines, source code | `sim table scene` | `tools/port.rs` |
-//! | [`measure`] | verdicts, advice, stability maps, clouds | `sim scene run tools` | `measure/judge.rs` |
-//! | [`loops`] | game loops, frame traces, the loop lab | `sim table scene run measure` | `loops/loop_run.rs` |
-//! | [`look`] | shapes, handles and colours of bodies | `sim scene run measure` | `look/pendulum.rs` |
-//! | [`studio`] | a person at a run: commands, view, background work | `sim scene run tools measure loops look` | `studio/apply.rs` |
-//! | [`stage`] | the picture as data: [`compose`](stage::compose()) makes a [`Picture`](stage::Picture) | `sim scene run measure loops look studio` | `stage/compose.rs` |
-//! | `view` | pixels: panels, charts, `FrameRenderer::draw`, two executors | `scene run tools measure loops look studio stage` | `view/frame.rs` |
-//! | `window` | a screen, real time, files | `scene run measure loops look studio view` | `window.rs` |
-//! | `commands` | the command line: captures, threads | `sim table scene run tools measure loops look studio view window` | `commands/mod.rs` |
-//!
-//! Without features the crate is `sim` without [`bodies`](sim::bodies) and [`law`](sim::law)s, for a game's own loop.
-//! `lab` adds the rooms up to `stage`; `view` and `window` follow. `cli` is `commands`: those that draw need `view`,
-//! and `play` needs `window`. The default, `desktop`, has all. Up to `stage` nothing knows a graphics crate, a file or
-//! a wall clock: text comes in as `&str`, time as integers.
-//!
-//! # A frame
-//!
-//! events → [`Command`](studio::Command)s → [`Studio::apply`](studio::Studio::apply) → [`Action`](scene::Action)s →
-//! [`Race`](run::Race) → [`PerformedAction`](run::race::PerformedAction) → [`Clock::advance`](sim::Clock::advance) →
-//! due [ticks](run::Run::tick) → [`compose`](stage::compose()) → `FrameRenderer::draw` → `CpuExecutor` or
-//! `GpuExecutor`. A [`FrameLoop`](studio::FrameLoop) does this in real time.
-//!
-//! # Invariants
-//!
-//! - **The same bits everywhere.** Stepped state is `f64` and uses only `+ - × ÷ √` and `libm`; time is whole ticks.
-//!   Frame rate, drawing, platform and build profile change nothing: `tests/determinism.rs` compares hashes.
-//! - **A run is a value.** A [`Session`](run::Session) changes only by [`Action`](scene::Action)s and ticks, and its
-//!   [`Journal`](run::Journal) holds them all. A [`Run`](run::Run) goes to any tick and finds the same bits.
-//! - **A body that blows up is data.** It halts, keeps its last good state and gives a reason; the other bodies go
-//!   on unchanged.
-//! - **A step allocates nothing**, locks nothing and touches no file.
-//! - **Claims are measured.** Tests hold every field of a [`Method`](sim::integrators::Method) card from both sides,
-//!   with drag and without.
-//! - **One table each** for [methods](sim::integrators::METHODS), [bodies](sim::bodies::BODIES),
-//!   [rules for impacts](sim::IMPACTS), [metrics](run::METRICS), [scenes](scene::SCENES), [keys](studio::KEYS),
-//!   [stops](studio::guide::STOPS), [game loops](loops::POLICIES), [their metrics](loops::PACING_METRICS) and
-//!   [traces](loops::TRACES). Menus, help and tests loop over them.
-//!
-//! # Add a thing
-//!
-//! - **A method**: copy `sim/integrators/midpoint.rs`, add a line to `methods!` and its source to `assets/methods`.
-//! - **A physics engine**: a method [for some bodies only](sim::integrators::Only), like `sim/integrators/bullet.rs`.
-//! - **A body**: copy `sim/bodies/pendulum.rs` and `look/pendulum.rs`; add it to `BODIES` and `LOOKS`.
-//! - **A scene**: a file in `assets/scenes` and its name in [`SCENES`](scene::SCENES).
-//! - **A game loop**: its lines in `assets/loops`, with the claims of its card above them, and its id in
-//!   [`POLICIES`](loops::POLICIES).
-//! - **A rule for impacts**: a line of [`IMPACTS`](sim::IMPACTS), its change in `sim/bouncer.rs`, and its source in
-//!   `assets/impacts`.
-//! - **A metric** or **a key**: one entry of its table.
+#![cfg_attr(
+    feature = "lab",
+    doc = r#"
+# The house
+
+A room may use only the rooms in its third column, all of them above it. A test checks this.
+
+| room | holds | may name | open first |
+|---|---|---|---|
+| [`sim`] | states, equations, methods, bodies | - | `sim/integrators/rk4.rs` |
+| [`scene`] | scenes as text and value, actions, custom bodies | `sim` | `scene/mod.rs` |
+| [`table`] | a table reader: bytes to rows and numbers | `sim scene` | `table/mod.rs` |
+| [`run`] | a race against the truth: actions, past, recording | `sim table scene` | `run/mod.rs` |
+| [`tools`] | a log's method, springs for engines, source code | `sim table scene` | `tools/port.rs` |
+| [`measure`] | verdicts, advice, stability maps, clouds | `sim scene run tools` | `measure/judge.rs` |
+| [`loops`] | game loops, frame traces, the loop lab | `sim table scene run measure` | `loops/loop_run.rs` |
+| [`look`] | shapes, handles and colours of bodies | `sim scene run measure` | `look/pendulum.rs` |
+| [`studio`] | a person at a run: commands, view, background work | `sim scene run tools measure loops look` | `studio/apply.rs` |
+| [`stage`] | the picture as data: [`compose`](stage::compose()) makes a [`Picture`](stage::Picture) | `sim scene run measure loops look studio` | `stage/compose.rs` |
+| `view` | pixels: panels, charts, `FrameRenderer::draw`, two executors | `scene run tools measure loops look studio stage` | `view/frame.rs` |
+| `window` | a screen, real time, files | `scene run measure loops look studio view` | `window.rs` |
+| `commands` | the command line: captures, threads | `sim table scene run tools measure loops look studio view window` | `commands/mod.rs` |
+
+Without features the crate is `sim` without [`bodies`](sim::bodies) and [`law`](sim::law)s, for a game's own loop.
+`lab` adds the rooms up to `stage`; `view` and `window` follow. `cli` is `commands`: those that draw need `view`,
+and `play` needs `window`. The default, `desktop`, has all. Up to `stage` nothing knows a graphics crate, a file or
+a wall clock: text comes in as `&str`, time as integers.
+
+# A frame
+
+events → [`Command`](studio::Command)s → [`Studio::apply`](studio::Studio::apply) → [`Action`](scene::Action)s →
+[`Race`](run::Race) → [`PerformedAction`](run::race::PerformedAction) → [`Clock::advance`](sim::Clock::advance) →
+due [ticks](run::Run::tick) → [`compose`](stage::compose()) → `FrameRenderer::draw` → `CpuExecutor` or
+`GpuExecutor`. A [`FrameLoop`](studio::FrameLoop) does this in real time.
+
+# Invariants
+
+- **The same bits everywhere.** Stepped state is `f64` and uses only `+ - × ÷ √` and `libm`; time is whole ticks.
+  Frame rate, drawing, platform and build profile change nothing: `tests/determinism.rs` compares hashes.
+- **A run is a value.** A [`Session`](run::Session) changes only by [`Action`](scene::Action)s and ticks, and its
+  [`Journal`](run::Journal) holds them all. A [`Run`](run::Run) goes to any tick and finds the same bits.
+- **A body that blows up is data.** It halts, keeps its last good state and gives a reason; the other bodies go
+  on unchanged.
+- **A step allocates nothing**, locks nothing and touches no file.
+- **Claims are measured.** Tests hold every field of a [`Method`](sim::integrators::Method) card from both sides,
+  with drag and without.
+- **One table each** for [methods](sim::integrators::METHODS), [bodies](sim::bodies::BODIES),
+  [rules for impacts](sim::IMPACTS), [metrics](run::METRICS), [scenes](scene::SCENES), [keys](studio::KEYS),
+  [stops](studio::guide::STOPS), [game loops](loops::POLICIES), [their metrics](loops::PACING_METRICS) and
+  [traces](loops::TRACES). Menus, help and tests loop over them.
+
+# Add a thing
+
+- **A method**: copy `sim/integrators/midpoint.rs`, add a line to `methods!` and its source to `assets/methods`.
+- **A physics engine**: a method [for some bodies only](sim::integrators::Only), like `sim/integrators/bullet.rs`.
+- **A body**: copy `sim/bodies/pendulum.rs` and `look/pendulum.rs`; add it to `BODIES` and `LOOKS`.
+- **A scene**: a file in `assets/scenes` and its name in [`SCENES`](scene::SCENES).
+- **A game loop**: its lines in `assets/loops`, with the claims of its card above them, and its id in
+  [`POLICIES`](loops::POLICIES).
+- **A rule for impacts**: a line of [`IMPACTS`](sim::IMPACTS), its change in `sim/bouncer.rs`, and its source in
+  `assets/impacts`.
+- **A metric** or **a key**: one entry of its table.
+"#
+)]
 //!
 //! # In your own game loop
 //!
@@ -69,31 +74,51 @@
 #![doc = include_str!("../examples/game_loop.rs")]
 //! ```
 //!
-//! # Custom bodies and methods
-//!
-//! A [`System`](sim::System) and a start are enough for [`advise`], [`Race::of`](run::Race::of),
-//! [`Scene::of`](scene::Scene::of) and `Window::run`:
-//!
-//! ```
-#![doc = include_str!("../examples/custom_body.rs")]
-//! ```
-//!
-//! A custom method is an [`Integrator`](sim::integrators::Integrator) and a card, which [`conformance::check`]
-//! measures:
-//!
-//! ```
-#![doc = include_str!("../examples/custom_method.rs")]
-//! ```
-//!
-//! For many copies of a body see `examples/cloud.rs` and `examples/batch.rs`.
-//!
-//! # In continuous integration
-//!
-//! A race of a scene keeps its hashes until its physics changes:
-//!
-//! ```
-#![doc = include_str!("../examples/ci_hash.rs")]
-//! ```
+#![cfg_attr(
+    feature = "lab",
+    doc = r#"
+# Custom bodies and methods
+
+A [`System`](sim::System) and a start are enough for [`advise`], [`Race::of`](run::Race::of),
+[`Scene::of`](scene::Scene::of) and `Window::run`:
+
+```
+"#
+)]
+#![cfg_attr(feature = "lab", doc = include_str!("../examples/custom_body.rs"))]
+#![cfg_attr(
+    feature = "lab",
+    doc = r#"
+```
+
+A custom method is an [`Integrator`](sim::integrators::Integrator) and a card, which [`conformance::check`]
+measures:
+
+```
+"#
+)]
+#![cfg_attr(feature = "lab", doc = include_str!("../examples/custom_method.rs"))]
+#![cfg_attr(
+    feature = "lab",
+    doc = r#"
+```
+
+For many copies of a body see `examples/cloud.rs` and `examples/batch.rs`.
+
+# In continuous integration
+
+A race of a scene keeps its hashes until its physics changes:
+
+```
+"#
+)]
+#![cfg_attr(feature = "lab", doc = include_str!("../examples/ci_hash.rs"))]
+#![cfg_attr(
+    feature = "lab",
+    doc = r#"
+```
+"#
+)]
 //!
 //! The [manual] describes the program.
 //!

@@ -21,8 +21,8 @@ pub trait Body: System<Vector: Vector> + Clone + Send + 'static {
     /// Whether the body can have [walls](Body::walls).
     const HAS_WALLS: bool = false;
 
-    /// The parameters of this kind of body. The card of the kind has their descriptions as
-    /// [`Kind::parameters`](super::bodies::Kind::parameters).
+    /// The parameters of this kind of body. The card of the kind describes them in
+    /// `Kind::parameters`.
     const PARAMETERS: &'static [ParameterOf<Self>] = &[];
 
     /// Returns the body with these values of its [parameters](Body::PARAMETERS), in order. There is one value per
@@ -30,7 +30,7 @@ pub trait Body: System<Vector: Vector> + Clone + Send + 'static {
     ///
     /// # Panics
     /// If the number of values is wrong, or if no body of this kind can be built from the values; see
-    /// [`Kind::check`](super::bodies::Kind::check).
+    /// `Kind::check`.
     fn with_parameters(mut self, values: &[f64]) -> Self {
         parameter::write(&mut self, Self::PARAMETERS, values);
         self.prepare();

@@ -121,9 +121,9 @@ impl dyn Stepper + '_ {
     }
 
     /// Sets a parameter of the body at time `t` (s), by its index in the kind's
-    /// [`parameters`](super::bodies::Kind::parameters). The state is unchanged. Returns whether the body changed. The
-    /// body does not change if the value equals the old one, or if the parameter [acts at the
-    /// start](super::bodies::TakesEffect). `value` must be in the parameter's range and pass the kind's check.
+    /// `parameters`. The state is unchanged. Returns whether the body changed. The body does not change if the value
+    /// equals the old one, or if the parameter acts at the start. `value` must be in the parameter's range and pass the
+    /// kind's check.
     pub fn set_parameter(&mut self, t: f64, index: usize, value: f64) -> bool {
         self.change(t, Change::Parameter { index, value })
     }
@@ -149,7 +149,7 @@ pub enum Change<'a> {
     Input(Input),
     /// Edits a parameter of the body.
     Parameter {
-        /// The index of the parameter in the kind's [`parameters`](super::bodies::Kind::parameters).
+        /// The index of the parameter in the kind's `parameters`.
         index: usize,
         /// The new value of the parameter.
         value: f64,
@@ -178,7 +178,7 @@ impl Change<'_> {
 
 /// The body of a [`Stepper`] at its state, independent of the solver.
 pub trait PlacedBody {
-    /// Returns the coordinates, in the order of the body kind's [`coordinates`](super::bodies::Kind::coordinates).
+    /// Returns the coordinates, in the order of the body kind's `coordinates`.
     fn q(&self) -> &[f64];
     /// Returns the velocities, in the order of the coordinates.
     fn v(&self) -> &[f64];
