@@ -49,7 +49,8 @@ async function byPuppeteer(browser, executablePath) {
                 isGivenUp || complaints.push(`${address}: not found: ${asked.url()}`);
             });
             page.on("request", (asked) => {
-                const isOwn = asked.url().startsWith(new URL(address).origin) || /^(data|blob|about):/.test(asked.url());
+                // A file has no origin, and asks for itself alone.
+                const isOwn = asked.url().startsWith(address.startsWith("file:") ? address : new URL(address).origin) || /^(data|blob|about):/.test(asked.url());
                 isOwn || complaints.push(`${address}: asks ${asked.url()}`);
             });
             await page.goto(address);

@@ -1,5 +1,5 @@
 #!/usr/bin/env node
-// Holds target/web, which .ci/web makes, to the program: the bits of every scene under every method, the words of verdicts, the
+// Holds target/web and target/regatta.html, which .ci/web --single makes, to the program: the bits of every scene under every method, the words of verdicts, the
 // numbers of the pages of questions, a stage that is drawn, and time that runs as in the world. `.ci/web-test.mjs firefox` and
 // `.ci/web-test.mjs webkit` take these browsers instead of Chromium, in which alone touch, a lost context and files are tried.
 // Needs the browser, and npm, which installs the driver under target/tools; WebKit is GTK's MiniBrowser with WebKitWebDriver.
@@ -7,12 +7,13 @@
 
 import { existsSync, readdirSync, readFileSync } from "node:fs";
 import { dirname, join } from "node:path";
+import { pathToFileURL } from "node:url";
 import { drive } from "./web-browser.mjs";
 import { serve } from "./web-server.mjs";
 
 const browser = process.argv[2] ?? "chrome";
-if (!existsSync("target/web/regatta_web_bg.wasm")) {
-    console.error("missing: target/web; run .ci/web");
+if (!existsSync("target/web/regatta_web_bg.wasm") || !existsSync("target/regatta.html")) {
+    console.error("missing: target/web or target/regatta.html; run .ci/web --single");
     process.exit(2);
 }
 const server = await serve("target/web");
@@ -253,6 +254,23 @@ async function holdAddresses() {
     }
 }
 
+/** That the page in one file runs from a disk, with the same bits. */
+async function holdSingle() {
+    const page = await driven.open(pathToFileURL("target/regatta.html").href);
+    hold("one file: no first frame", await becomes(page, () => document.documentElement.dataset.firstFrameMs !== undefined));
+    const links = await page.evaluate(() => document.querySelectorAll("a[href]:not([href^='#'])").length);
+    hold(`one file: ${links} links to pages that are not in it`, links === 0);
+    const kept = readFileSync("tests/early_hashes.txt", "utf8").split("\n");
+    for (const scene of ["two-springs", "ship", "pendulum"]) {
+        const [found] = await page.evaluate(async (scene) => (await regatta).early_hashes(scene), scene);
+        const wanted = kept.filter((line) => line.startsWith(`${scene} `)).join("\n") + "\n";
+        hold(`one file, ${scene}: the bits are others:\n${found}instead of\n${wanted}`, found === wanted);
+    }
+    const from = await tick(page);
+    hold("one file: time stands still", await becomes(page, async (from) => (await regatta).tick() > from, from));
+    await page.close();
+}
+
 /** That a server whose policy forbids the program is told what to allow. */
 async function holdPolicy() {
     const complaints = driven.complaints.length;
@@ -272,6 +290,7 @@ try {
     await holdTime();
     await holdAddresses();
     await holdPolicy();
+    await holdSingle();
     await holdQuestions();
     await holdBitsAndWords();
     await holdFrames();

@@ -39,9 +39,15 @@ function tell(sentence) {
     document.documentElement.classList.add("refused");
 }
 
+/** Where the two parts of the program come from. A page in one file has them in it. */
+const parts = globalThis.parts ?? {
+    bound: () => import("./regatta_web.js"),
+    program: () => fetch("regatta_web_bg.wasm"),
+};
+
 /** The bytes of the program as they arrive, from which it is compiled; they are counted uncompressed, as the browser hands them on. */
 async function arriving() {
-    const response = await fetch("regatta_web_bg.wasm");
+    const response = await parts.program();
     if (!response.ok) {
         throw new Error(`The server says ${response.status} of regatta_web_bg.wasm: the page is not whole.`);
     }
@@ -90,7 +96,7 @@ globalThis.regatta = (async () => {
     if (!WebAssembly.validate(new Uint8Array(VECTORS))) {
         throw new Error("Regatta needs WebAssembly with vectors, as browsers have it since 2023.");
     }
-    const { default: init, ...program } = await import("./regatta_web.js").catch(() => {
+    const { default: init, ...program } = await parts.bound().catch(() => {
         throw new Error("A part of the program has not arrived (regatta_web.js). Load the page again.");
     });
     const { memory } = await init({ module_or_path: arriving() });

@@ -72,12 +72,12 @@ impl fmt::Display for Key {
 }
 
 impl Key {
-    /// Whether browsers use the key for something that visitors expect on every page: reload, developer tools, full
-    /// screen, zoom. A page leaves such a key to the browser.
+    /// Whether browsers use the key for something that visitors expect on every page: the address, reload, developer
+    /// tools, full screen, zoom. A page leaves such a key to the browser.
     pub fn is_browsers(self) -> bool {
         matches!(
             self,
-            Key::Function(5 | 11 | 12) | Key::ControlSign('+' | '=' | '-' | '0' | '1'..='9')
+            Key::Function(5 | 11 | 12) | Key::ControlSign('l' | '+' | '=' | '-' | '0' | '1'..='9')
         )
     }
 }
@@ -175,7 +175,7 @@ pub static KEYS: &[Binding] = keys! {
     once "N, B" "next, previous scene":
         Sign('n') => Stage(StageCommand::SceneBeside(Step::Next)),
         Sign('b') => Stage(StageCommand::SceneBeside(Step::Previous));
-    once "O" "open a scene file; or drop one onto the window" or "open a scene file; or drop one onto the page":
+    once "O" "open a scene file; or drop one onto the window" or "open a scene file; or drop one onto the page; Ctrl V opens a copied link":
         Sign('o') => View(ViewCommand::AskForPath);
     once "Shift O" "compare the run with a recording: it runs beside as a ghost, from the first difference on":
         ShiftSign('o') => View(ViewCommand::AskForRun);
@@ -217,7 +217,7 @@ pub static KEYS: &[Binding] = keys! {
         Sign('p') => Ask(DriverRequest::Screenshot), Function(12) => Ask(DriverRequest::Screenshot);
     once "F5, Ctrl S" "save the run as a scene file; its name is shown":
         Function(5) => Ask(DriverRequest::Record), ControlSign('s') => Ask(DriverRequest::Record);
-    once "Ctrl L" "copy the run as a link, which `regatta play` opens" or "copy the run as a link; Ctrl V opens one":
+    once "Ctrl L" "copy the run as a link, which `regatta play` opens":
         ControlSign('l') => Ask(DriverRequest::CopyLink);
     once "X" "equal cost of all lanes on / off: cheap lanes get more substeps":
         Sign('x') => Run(RunCommand::ToggleEqualCost);
@@ -289,7 +289,7 @@ mod tests {
         for own in ["1 … 9, 0", "P", "Ctrl S", "Ctrl Z, Ctrl Shift Z", "H, F1, ?", "Esc"] {
             assert!(keys.contains(&own), "{own}: {keys:?}");
         }
-        assert_eq!(shown.len() + 2, KEYS.len(), "F11, and the size of type");
+        assert_eq!(shown.len() + 3, KEYS.len(), "F11, the address, and the size of type");
         assert!(shown.iter().all(|(_, about)| !about.contains("quit") && !about.contains('`')));
     }
 

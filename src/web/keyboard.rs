@@ -127,11 +127,12 @@ mod tests {
         assert_eq!(bound("End", "Numpad1", false), Some(Key::Digit(1)));
         assert_eq!(bound("c", "KeyC", false), Some(Key::Sign('c')));
         assert_eq!(bound(" ", "Space", false), Some(Key::Space));
-        assert_eq!(bound("l", "KeyL", true), Some(Key::ControlSign('l')));
+        assert_eq!(bound("s", "KeyS", true), Some(Key::ControlSign('s')));
         assert_eq!(bound("F3", "F3", false), Some(Key::Function(3)));
         for (key, code, control) in [
             ("F5", "F5", false),
             ("F12", "F12", false),
+            ("l", "KeyL", true),
             ("+", "Equal", true),
             ("0", "Digit0", true),
         ] {

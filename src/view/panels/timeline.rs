@@ -99,7 +99,8 @@ pub(super) fn show(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) {
         commands,
     );
     response.context_menu(|ui| {
-        if ui.button("Share: copy a link (Ctrl L)").clicked() {
+        let keys = if studio.viewer.preferences.is_page { "" } else { " (Ctrl L)" };
+        if ui.button(format!("Share: copy a link{keys}")).clicked() {
             commands.push(Command::Ask(DriverRequest::CopyLink));
             ui.close();
         }
