@@ -52,10 +52,10 @@ const TOOLS: &[Tool] = &[
     ("loop", JSON),
     ("port", JSON),
     ("rule", JSON),
-    ("show", &[]),
+    ("show", JSON),
     ("sweep", JSON),
     ("trace", JSON),
-    ("verify", &[]),
+    ("verify", JSON),
 ];
 const JSON: &[&str] = &["--format=json"];
 /// Options that write files, need one that does, or are about this machine.

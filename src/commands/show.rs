@@ -1,11 +1,13 @@
 //! `regatta show`: prints a method or a game loop as code for a game.
 
 use clap::Args;
+use serde_json::json;
 
 use super::error::Error;
 use super::help::flowing;
 use super::id::{Id, LANGUAGE, LOOP, METHOD, languages_by_other_names};
-use super::output::print;
+use super::output::table::TableFormat;
+use super::output::{print, print_json};
 use super::own_file::{FRAMES, STEP, load_loop, load_method};
 use super::terminal::print_status;
 use crate::loops::PolicyCard;
@@ -56,6 +58,10 @@ pub(super) struct ShowArgs {
     #[arg(long = "as", value_name = "LANGUAGE")]
     #[arg(value_parser = CODE_LANGUAGE, hide_possible_values = true)]
     language: Option<CodeLanguage>,
+
+    /// The format: text or json
+    #[arg(long, value_name = "FORMAT", default_value = "text", hide_possible_values = true)]
+    format: TableFormat,
 
     /// Use single precision, as Unity and Godot do
     #[arg(long)]
@@ -118,6 +124,22 @@ const CODE_LANGUAGE: Id<CodeLanguage> = Id {
 };
 
 pub(super) fn run(args: &ShowArgs) -> Result<(), Error> {
+    let code = code(args)?;
+    match args.format {
+        TableFormat::Text => print(&code),
+        TableFormat::Json => {
+            let (id, kind) = match args.asked {
+                ShownItem::Method { method, .. } => (method.id, "method"),
+                ShownItem::Loop(card) => (card.id, "loop"),
+                ShownItem::Impact(impact) => (impact.id, "impact"),
+            };
+            print_json(format!("{:#}\n", json!({"id": id, "kind": kind, "code": code})))
+        }
+    }
+}
+
+/// Returns the code of the item that is asked for.
+fn code(args: &ShowArgs) -> Result<String, Error> {
     let (method, alias) = match args.asked {
         ShownItem::Method { method, alias } => (method, alias),
         ShownItem::Loop(_) | ShownItem::Impact(_) if args.float => {
@@ -125,14 +147,14 @@ pub(super) fn run(args: &ShowArgs) -> Result<(), Error> {
                 "--float is for methods; a loop or a rule has no precision to choose",
             ));
         }
-        ShownItem::Loop(card) => return print(&loop_source(card, args.language)?),
+        ShownItem::Loop(card) => return loop_source(card, args.language),
         ShownItem::Impact(impact) => {
             let language = match args.language.unwrap_or(CodeLanguage::Of(Language::default())) {
                 CodeLanguage::Of(language) => language,
                 CodeLanguage::Cpp => Language::C,
-                CodeLanguage::Step => return print(impact.code),
+                CodeLanguage::Step => return Ok(impact.code.to_owned()),
             };
-            return print(&impact_code(impact, language).map_err(Error::mistake)?);
+            return impact_code(impact, language).map_err(Error::mistake);
         }
     };
     let asked = args.language.unwrap_or(CodeLanguage::Of(Language::default()));
@@ -153,7 +175,7 @@ pub(super) fn run(args: &ShowArgs) -> Result<(), Error> {
     if let Some(alias) = alias {
         print_status(&format!("note: {alias} is another name of {}, which is shown", method.id));
     }
-    print(&code)
+    Ok(code)
 }
 
 /// Returns the source code of a loop in a language. That of an engine or of a person is its lines, unless they ask for

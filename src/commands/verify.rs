@@ -14,6 +14,7 @@ use super::frame_names::is_of_a_capture;
 use super::help::flowing;
 use super::manifest::FrameEntry;
 use super::output::same_file_path;
+use super::output::table::TableFormat;
 use super::settings::CapturedRun;
 use super::state_log::StateLog;
 use crate::studio::Studio;
@@ -59,6 +60,11 @@ pub(super) struct VerifyArgs {
     /// Give the option again for both. Replaces an older report, and no other file.
     #[arg(long, num_args = 2, value_names = ["FORMAT", "FILE"])]
     report: Option<Vec<String>>,
+
+    /// The format of standard output: text or json
+    #[arg(long, value_name = "FORMAT", default_value = "text", hide_possible_values = true)]
+    #[arg(conflicts_with = "bless")]
+    format: TableFormat,
 
     /// Draw the difference of each changed frame into DIR
     #[arg(long, value_name = "DIR", conflicts_with = "physics_only")]
@@ -108,7 +114,8 @@ pub(super) fn run(args: &VerifyArgs) -> Result<(), Error> {
         }
         _ => {}
     }
-    let report = if is_recording { recording::judge(&args.dir) } else { clip::judge(args) }?;
+    let report =
+        if is_recording { recording::judge(&args.dir, args.format) } else { clip::judge(args) }?;
     files.into_iter().try_for_each(|file| file.write(&report))?;
     report.outcome()
 }

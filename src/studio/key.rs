@@ -233,8 +233,8 @@ pub static KEYS: &[Binding] = keys! {
     once "H, F1, ?" "help":
         Sign('h') => View(ViewCommand::ToggleHelp), Function(1) => View(ViewCommand::ToggleHelp),
         Sign('?') => View(ViewCommand::ToggleHelp);
-    once "Esc" "take away, in turn: a body or the tick rate in hand, dialog, help, guide, Edit, instrument, fan, comparison, loop lab, race, full screen; then ask whether to quit: Enter quits"
-        or "take away, in turn: a body or the tick rate in hand, dialog, help, guide, Edit, instrument, fan, comparison, loop lab, race; with Tab after it, leave the stage":
+    once "Esc" "take away, in turn: a body or the tick rate in hand, dialog, help, guide, Edit, instrument, fan, comparison, run beside, loop lab, race, full screen; then ask whether to quit: Enter quits"
+        or "take away, in turn: a body or the tick rate in hand, dialog, help, guide, Edit, instrument, fan, comparison, run beside, loop lab, race; with Tab after it, leave the stage":
         Escape => View(ViewCommand::Escape);
 };
 

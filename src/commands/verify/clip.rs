@@ -8,7 +8,7 @@ use serde_json::{Value, json};
 use super::physics::{PhysicsChange, first_change};
 #[cfg(feature = "view")]
 use super::pixels;
-use super::report::{DIRECTORY, Report, print_line};
+use super::report::{DIRECTORY, Report};
 use super::{Frames, Repeated, VerifyArgs};
 use crate::commands::captured::{read_run, unjudged};
 #[cfg(feature = "view")]
@@ -60,7 +60,7 @@ pub(super) fn judge(args: &VerifyArgs) -> Result<Report, Error> {
         Err(error) if error.is_mistake() => (None, run()?, Some(error)),
         Err(error) => return Err(error),
     };
-    let mut report = Report::new(DIRECTORY, dir);
+    let mut report = Report::new(DIRECTORY, dir, args.format);
     add_physics(&mut report, &rerun, &manifest.lanes, repeated)?;
     let physics_differs = report.differing() > 0;
     match failed {
@@ -95,7 +95,8 @@ fn add_physics(
     let Repeated { studio, state_log, moment } = repeated;
     let Some(change) = first_change(rerun, ends, &studio, state_log, moment) else {
         let lanes = counted(studio.race().entrants().len(), "lane");
-        print_line(&format!("physics: same to the bit: {lanes} to tick {}", studio.race().tick()))?;
+        report
+            .say(&format!("physics: same to the bit: {lanes} to tick {}", studio.race().tick()))?;
         report.judged("physics", None);
         report.field("physics", json!({ "same": true, "first_difference": null }));
         return Ok(());
@@ -103,7 +104,7 @@ fn add_physics(
     let PhysicsChange { tick, lane, what } = change;
     let of_lane = lane.map_or(String::new(), |(n, method)| format!("lane {n}, {method}, "));
     let line = format!("differs first at tick {tick}: {of_lane}{what}");
-    print_line(&format!("physics: {line}"))?;
+    report.say(&format!("physics: {line}"))?;
     report.judged("physics", Some(line));
     let (lane, method) = lane.unzip();
     let change = json!({ "tick": tick, "lane": lane, "method": method, "what": what });
@@ -123,19 +124,19 @@ fn add_pixels(
     let (frames, mut changes) = (differences.len(), Vec::new());
     for (entry, difference) in manifest.frames.iter().zip(differences) {
         if let Some(what) = &difference {
-            print_line(&format!("pixels: {}: {what}", entry.file))?;
+            report.say(&format!("pixels: {}: {what}", entry.file))?;
             changes.push(json!({ "file": entry.file, "what": what }));
         }
         report.judged(&entry.file, difference);
     }
     for file in unlisted(&report.path, frames) {
         let what = "no frame of the manifest has this name; move it away".to_owned();
-        print_line(&format!("pixels: {file}: {what}"))?;
+        report.say(&format!("pixels: {file}: {what}"))?;
         changes.push(json!({ "file": file, "what": what }));
         report.judged(file, Some(what));
     }
     let all = counted(frames, "frame");
-    print_line(&match (changes.len(), are_exact) {
+    report.say(&match (changes.len(), are_exact) {
         (0, true) => format!("pixels: same: {all}, every pixel"),
         (0, false) => format!("pixels: same within the limits: {all}"),
         (changed, _) if changed > frames => format!("pixels: {changed} differ, of {all}"),

@@ -5,11 +5,12 @@ use std::path::Path;
 
 use serde_json::{Value, json};
 
-use super::report::{FILE, Report, print_line};
+use super::report::{FILE, Report};
 use crate::atomic_file::IfExists;
 use crate::commands::error::Error;
 use crate::commands::interrupt::watch_for_interrupt;
 use crate::commands::output::Destination;
+use crate::commands::output::table::TableFormat;
 use crate::commands::terminal::print_status;
 use crate::commands::{jobs, scene_file};
 use crate::run::race::{Observer, PerformedAction, Race};
@@ -111,7 +112,7 @@ impl Difference {
     }
 }
 
-pub(super) fn judge(path: &Path) -> Result<Report, Error> {
+pub(super) fn judge(path: &Path, format: TableFormat) -> Result<Report, Error> {
     let (scene, _) = scene_file::load(path)?;
     if scene.checks.is_empty() {
         return Err(Error::mistake(format!(
@@ -122,9 +123,9 @@ pub(super) fn judge(path: &Path) -> Result<Report, Error> {
     check_ticks(path, &scene)?;
     let judged = jobs::result(&watch_for_interrupt(), move || compare(&scene));
     let lanes = judged.ok_or_else(Error::nothing_written)?;
-    let mut report = Report::new(FILE, path);
+    let mut report = Report::new(FILE, path, format);
     for lane in &lanes {
-        print_line(&lane.line())?;
+        report.say(&lane.line())?;
         report.judged(lane.name(), lane.difference.as_ref().map(Difference::line));
     }
     report.field("lanes", lanes.iter().map(JudgedLane::object).collect());

@@ -9,7 +9,8 @@ use serde_json::{Map, Value, json};
 use crate::atomic_file::IfExists;
 use crate::commands::error::{Error, PlaceOf};
 use crate::commands::frame_names::not_ours;
-use crate::commands::output::{Destination, Input, Output, print};
+use crate::commands::output::table::TableFormat;
+use crate::commands::output::{Destination, Input, Output, print, print_json};
 use crate::commands::scene_file::name_in_messages;
 use crate::commands::visible::shortened;
 use crate::regular_file;
@@ -79,7 +80,8 @@ fn is_report(path: &Path) -> bool {
     start.is_empty() || start.starts_with(JUNIT_BEGINS) || is_json()
 }
 
-/// The result of a command. Each line that is added also goes to standard output at once.
+/// The result of a command. Each line that is said goes to standard output at once, unless that gets the result as
+/// JSON.
 #[derive(Debug)]
 pub(super) struct Report {
     pub(super) path: PathBuf,
@@ -91,13 +93,22 @@ pub(super) struct Report {
     key: &'static str,
     /// The message for the case that something differs.
     differs: String,
+    format: TableFormat,
 }
 
 impl Report {
-    /// Creates an empty report. `key` is the JSON key for the path.
-    pub(super) fn new(key: &'static str, path: &Path) -> Self {
+    /// Creates an empty report for standard output in this format. `key` is the JSON key for the path.
+    pub(super) fn new(key: &'static str, path: &Path, format: TableFormat) -> Self {
         let (cases, fields) = (Vec::new(), Map::new());
-        Self { path: path.to_owned(), cases, fields, key, differs: String::new() }
+        Self { path: path.to_owned(), cases, fields, key, differs: String::new(), format }
+    }
+
+    /// Prints a line to standard output.
+    pub(super) fn say(&self, line: &str) -> Result<(), Error> {
+        match self.format {
+            TableFormat::Text => unless_closed(print(format!("{}\n", shortened(line)))),
+            TableFormat::Json => Ok(()),
+        }
     }
 
     /// Adds a case, with the difference in it, if there is one.
@@ -122,6 +133,9 @@ impl Report {
 
     /// Returns the result with which the command ends.
     pub(super) fn outcome(self) -> Result<(), Error> {
+        if let TableFormat::Json = self.format {
+            unless_closed(print_json(self.to_json()))?;
+        }
         match self.differing() {
             0 => Ok(()),
             _ => Err(Error::failed(self.differs)),
@@ -160,13 +174,9 @@ impl Report {
     }
 }
 
-/// Prints a line to standard output.
-pub(super) fn print_line(line: &str) -> Result<(), Error> {
-    match print(format!("{}\n", shortened(line))) {
-        // The command still ends with its exit code if the reader has closed the pipe.
-        Err(error) if error.is_closed_pipe() => Ok(()),
-        printed => printed,
-    }
+/// Leaves out that the reader has closed the pipe, so that the command still ends with its exit code.
+fn unless_closed(printed: Result<(), Error>) -> Result<(), Error> {
+    printed.or_else(|error| if error.is_closed_pipe() { Ok(()) } else { Err(error) })
 }
 
 /// Escapes a text for the value of an attribute in XML.

@@ -176,13 +176,14 @@ mod tests {
     use crate::view::tests::testing::{TestWindow, button};
 
     #[test]
-    fn the_spring_swings_beside_its_numbers_or_below_them_and_a_drag_changes_its_damping() {
+    fn the_spring_swings_beside_its_numbers_or_below_them_where_there_is_room() {
         for (size, is_shown) in
             [([1280.0, 720.0], true), ([800.0, 600.0], true), ([390.0, 844.0], true)]
                 .into_iter()
                 .chain([([600.0, 400.0], false)])
         {
             let mut studio = Studio::new(Scene::built_in("spring").unwrap());
+            studio.apply(ViewCommand::ToggleMeasure);
             studio.apply(ViewCommand::AskForSpring);
             let mut window = TestWindow::new(size);
             let mut seen = |studio: &Studio| {
