@@ -8,8 +8,9 @@ use super::trace::FrameTrace;
 
 /// Number of frames before a long one.
 const BEFORE: usize = 8;
-/// Real time after a long frame, in nanoseconds.
-const AFTER_NS: i64 = 3_000_000_000;
+/// Real time after a long frame, relative to its duration, and the range of that time in nanoseconds.
+const AFTER: i64 = 10;
+const AFTER_NS: [i64; 2] = [1_000_000_000, 3_000_000_000];
 /// Minimum duration of a long frame, in refreshes of the display.
 const LONG: f64 = 2.5;
 /// Maximum number of frames that are searched for a long one.
@@ -21,6 +22,7 @@ const MAX_SEARCHED: usize = 100_000;
 pub struct GameTime {
     from_ns: i64,
     until_ns: i64,
+    has_long: bool,
     points: Vec<[f64; 2]>,
 }
 
@@ -39,12 +41,19 @@ impl GameTime {
         let longest = gaps.filter(|(_, gap)| *gap as f64 > long_ns).min_by_key(|(_, gap)| -gap);
         let (index, gap) = longest.unwrap_or_default();
         let from_ns = longest.map_or(0, |_| displayed[index.saturating_sub(BEFORE)]);
-        Self { from_ns, until_ns: from_ns.saturating_add(gap + AFTER_NS), points: Vec::new() }
+        let after_ns = gap.saturating_mul(AFTER).clamp(AFTER_NS[0], AFTER_NS[1]);
+        let until_ns = from_ns.saturating_add(gap).saturating_add(after_ns);
+        Self { from_ns, until_ns, has_long: longest.is_some(), points: Vec::new() }
     }
 
     /// Returns the time of display of the first frame, in nanoseconds.
     pub fn from_ns(&self) -> i64 {
         self.from_ns
+    }
+
+    /// Whether one of the frames is long.
+    pub fn has_long(&self) -> bool {
+        self.has_long
     }
 
     /// Adds a frame, if it is one of those around the longest.

@@ -65,7 +65,7 @@ impl OutlineView<'_> {
     }
 
     /// Writes a lane's number on a body of this colour, if the body is a single part with enough room.
-    pub(super) fn number(&self, picture: &mut Picture, number: usize, on: Rgba) {
+    pub(super) fn number(&self, picture: &mut Picture, number: impl ToString, on: Rgba) {
         let mut sizes = self.outline.marks.iter().filter_map(|mark| match *mark {
             Mark::Sprung => Some(0.42 * self.camera.block),
             Mark::Disc { radius, .. } => Some(1.1 * self.camera.size(radius)),

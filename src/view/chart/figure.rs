@@ -88,13 +88,20 @@ impl FigureCurve {
 }
 
 impl Chart {
-    /// Returns the chart of loops' [game time](crate::loops::GameTime) over real time, beside the diagonal.
+    /// Returns the chart of loops' [game time](crate::loops::GameTime) over real time, beside the diagonal. A game
+    /// stands still between two frames.
     pub fn of_game_time(title: String, theme: Theme, mut curves: Vec<FigureCurve>) -> Self {
         let points = || curves.iter().flat_map(|curve| &curve.points);
         let real = span(points(), 0);
         let game = span(points().chain(&[[0.0, real[0]], [0.0, real[1]]]), 1);
         let axis = |name, view| Axis { name, view, scale: AxisScale::Linear };
         let axes = [axis("real time (ms)", real), axis("game time (ms)", game)];
+        for curve in &mut curves {
+            let held = curve.points.windows(2).map(|pair| [pair[1][0], pair[0][1]]);
+            let last = curve.points.last().copied();
+            let points = curve.points.iter().copied().zip(held).flat_map(|(at, held)| [at, held]);
+            curve.points = points.chain(last).collect();
+        }
         curves.insert(0, FigureCurve::real_time(theme, real));
         Self { title, legend: Legend::Shared, axes, curves }
     }
