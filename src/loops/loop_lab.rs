@@ -325,7 +325,7 @@ impl LoopLab {
         self.advice?.map_or_else(NoLoop::nearest, |advised| Some(advised.index))
     }
     /// Returns the order of the lanes in the list. The chosen engine comes first, then the recommended loop or the one
-    /// nearest to a recommendation, the raw loop and the one in floats beside it, then the others in the order of
+    /// nearest to a recommendation. The raw loop in floats follows that without. The others have the order of
     /// [`POLICIES`].
     pub fn listed(&self) -> Vec<usize> {
         let mut first: Vec<usize> = self.engine.map(|_| POLICIES.len()).into_iter().collect();

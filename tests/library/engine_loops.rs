@@ -205,10 +205,11 @@ fn a_constant_of_an_engine_can_be_set() {
 fn the_manual_lists_every_engine_and_its_own_loop_runs() {
     let manual = |id: &str| regatta::manual::chapter(id).unwrap().text;
     let mut gives: Vec<&str> = Vec::new();
-    ENGINES
-        .iter()
-        .filter(|card| !gives.contains(&card.formula))
-        .for_each(|card| gives.push(card.formula));
+    for card in ENGINES.iter() {
+        if !gives.contains(&card.formula) {
+            gives.push(card.formula);
+        }
+    }
     let mut rows = String::new();
     for formula in gives {
         let of = ENGINES.iter().filter(|card| card.formula == formula);
