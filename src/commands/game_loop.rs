@@ -19,18 +19,19 @@ use super::interrupt::watch_for_interrupt;
 use super::output::table::{RowFormat, RowWriter};
 use super::output::{Destination, Input, Output, STDOUT, same_file_path};
 use super::own_file::{LOOP_OR_FILE, METHOD_OR_FILE};
-use super::scene_file;
 use super::table_args::{TableArgs, taken_object};
 use super::tick_rate::TickRateArgs;
 use super::trace_source::traces;
+use super::{rule, scene_file};
 use crate::atomic_file::IfExists;
 use crate::loops::log::ShownLog;
 use crate::loops::{
-    ENGINES, Excess, FrameLimits, FrameTrace, LongFrame, MIN_RUN_S, PACING_METRICS, POLICIES,
-    PacingMetric, PolicyCard, RefreshRate, USUAL_LATENCY_MS, trace_card,
+    CAMERA_METRICS, Camera, ENGINES, Excess, FrameLimits, FrameTrace, GameTime, LongFrame,
+    MIN_RUN_S, PACING_METRICS, POLICIES, PacingMetric, PolicyCard, RefreshRate, USUAL_LATENCY_MS,
+    trace_card,
 };
 use crate::run::Unit;
-use crate::scene::{LaneSpec, Scene};
+use crate::scene::{LaneSpec, Scene, SceneErrors};
 use crate::sim::integrators::Method;
 use crate::sim::number::counted;
 use crate::table::TableOptions;
@@ -41,7 +42,7 @@ mod diagram;
 mod engine;
 mod measured;
 
-use measured::{Measured, Stretch, drawn_from_ns, measure};
+use measured::{Measured, Stretch, measure};
 
 const ABOUT: &str = "\
 One row for each trace and policy, in the order asked for; times are in ms:
@@ -62,10 +63,14 @@ One row for each trace and policy, in the order asked for; times are in ms:
   owed_ms             real time neither simulated nor given up at the end; below 0 the game is ahead
   fast_forward_…      frames that simulate half a tick more than they last, to catch up on time owed
   backward_frames     frames that show an earlier moment than the frame before
+  seen_error_…        with --follow: change of the distance from the camera to a body that moves evenly,
+                      minus the change if every picture showed the moment of its display
+  camera_error_rms_ms the same of the camera, and so of all that stands still in its picture
+  camera_lag_ms       mean time by which the camera is behind the body
 
 In --frame-rows q is the first coordinate of the scene's first body, step_ms the time of the frame's
-steps, and alpha the place of the picture between two ticks. Each line of a list is a frame. Below the rows, loop recommends one:
-the loop with the least animation error that has a fixed tick and is smooth within --latency-ms; or it
+steps, alpha the place of the picture between two ticks, and camera that of --follow. Each line of a
+list is a frame. Below the rows, loop recommends one: the loop with the least animation error that has a fixed tick and is smooth within --latency-ms; or it
 says why there is none. `regatta help loops` says more.
 
 Examples:
@@ -74,7 +79,8 @@ Examples:
   regatta loop --trace capture.csv --tick-hz 50
   regatta loop --engine phaser --trace capture.csv
   regatta loop --policy mine.loop --policy bevy --set hz=60
-  regatta loop --fps 200 --display-hz 144 --max-ticks 2";
+  regatta loop --fps 200 --display-hz 144 --max-ticks 2
+  regatta loop --trace steady-144 --follow 'x += (target - x)*8*dt'";
 
 /// Measure what game loops do to motion on a display
 #[derive(Debug, Args)]
@@ -132,8 +138,15 @@ pub(super) struct LoopArgs {
     #[arg(long, value_name = "NAME|N", requires = "traces")]
     shown: Option<String>,
 
-    /// The speed of the column of --shown in units a second [default: fitted]
-    #[arg(hide_short_help = true, long, value_name = "N", value_parser = speed, allow_negative_numbers = true, requires = "shown")]
+    /// The lines of a camera that follows a body as the pictures show it, or a file of them
+    ///
+    /// They run once a frame and move the camera x, such as 'x += (target - x)*8*dt'. The target moves evenly by
+    /// --speed, or by 1 a second, and each loop draws it raw or between two ticks.
+    #[arg(long, value_name = "RULE|FILE", allow_hyphen_values = true)]
+    follow: Option<String>,
+
+    /// The speed of the column of --shown, or of the body of --follow, in units a second [default: fitted, or 1]
+    #[arg(hide_short_help = true, long, value_name = "N", value_parser = speed, allow_negative_numbers = true)]
     speed: Option<f64>,
 
     #[command(flatten)]
@@ -234,6 +247,7 @@ pub(super) fn run(args: &LoopArgs) -> Result<(), Error> {
     let (scene, _) = scene_file::load(&args.scene)?;
     scene_file::check_method(&scene, args.method)?;
     let scene = Scene { tick_hz: args.tick_rate.tick_rate().unwrap_or(scene.tick_hz), ..scene };
+    let camera = args.camera()?;
     let policies = args.policies()?;
     let limits = args.limits(&policies)?;
     // Ideal loops refuse a clock that is set back.
@@ -261,7 +275,10 @@ pub(super) fn run(args: &LoopArgs) -> Result<(), Error> {
     let out = to(&args.out, "--out").open_for_text()?;
     let frames = args.frame_rows.as_deref().map(|path| to(path, "--frame-rows").open_for_text());
     let mut frames = match frames.transpose()? {
-        Some(out) => Some(RowWriter::begin(out, RowFormat::Csv, FRAME_COLUMNS)?),
+        Some(out) => {
+            let columns = FRAME_COLUMNS.into_iter().chain(camera.as_ref().map(|_| "camera"));
+            Some(RowWriter::begin(out, RowFormat::Csv, columns)?)
+        }
         None => None,
     };
     #[cfg(feature = "view")]
@@ -273,8 +290,8 @@ pub(super) fn run(args: &LoopArgs) -> Result<(), Error> {
     for trace in &traces {
         let from = rows.len();
         let until_ns = args.until_ns(&scene, trace);
-        let drawn_from_ns = args.plot().map(|_| drawn_from_ns(trace, until_ns));
-        let stretch = Stretch { until_ns, drawn_from_ns };
+        let game_time = args.plot().map(|_| GameTime::around_longest(trace, until_ns));
+        let stretch = Stretch { until_ns, game_time, camera: camera.clone() };
         let log = args.shown.as_ref().and_then(|_| ShownLog::of(trace, args.speed));
         for card in log.iter().map(|log| log.card).chain(policies.iter().copied()) {
             let spec = LaneSpec::plain(args.method);
@@ -283,7 +300,7 @@ pub(super) fn run(args: &LoopArgs) -> Result<(), Error> {
                 spec,
                 (card, limits),
                 trace,
-                stretch,
+                stretch.clone(),
                 &stop,
                 frames.as_mut(),
             )?);
@@ -299,6 +316,7 @@ pub(super) fn run(args: &LoopArgs) -> Result<(), Error> {
             (Some(_), [row]) => engine::print_answer(row, limits),
             (_, rows) => advice::print_advice(rows, args.latency_ms, limits),
         }
+        advice::print_camera(&rows[from - usize::from(log.is_some())..]);
     }
     write_measured(out, format, &rows, &traces)?;
     if let Some(frames) = frames {
@@ -347,6 +365,22 @@ impl LoopArgs {
         }
         let Self { max_ticks, max_frame_ms, excess, long_frame, cost_ms, .. } = *self;
         Ok(FrameLimits { max_ticks, max_frame_ms, excess, long_frame, cost_ms })
+    }
+
+    /// Returns the camera of `--follow` before its first frame.
+    fn camera(&self) -> Result<Option<Camera>, Error> {
+        let Some(written) = &self.follow else {
+            return match (&self.shown, self.speed) {
+                (None, Some(_)) => Err(Error::mistake(
+                    "--speed is that of a column or of a body; give --shown or --follow too",
+                )),
+                _ => Ok(None),
+            };
+        };
+        let (name, lines) = rule::read(written)?;
+        let camera = Camera::read(&lines, self.speed.unwrap_or(1.0));
+        let camera = camera.map_err(|fault| SceneErrors::of_step(&name, &lines, fault))?;
+        Ok(Some(camera))
     }
 
     /// Returns the files that the command reads.
@@ -432,17 +466,24 @@ fn write_measured(
     };
     let has_read = format == RowFormat::Json && traces.iter().any(|it| it.taken().is_some());
     let keys = ["policy", "trace", "tick_hz"].into_iter().chain(metrics().map(|metric| metric.id));
-    let keys = keys.chain(has_read.then_some("read"));
+    // All rows have the camera, or none has.
+    let camera_metrics =
+        if rows.iter().any(|row| row.camera.is_some()) { &CAMERA_METRICS[..] } else { &[] };
+    let keys =
+        keys.chain(camera_metrics.iter().map(|(id, _)| *id)).chain(has_read.then_some("read"));
     let mut writer = RowWriter::begin(out, format, keys)?;
-    for Measured { card, trace, tick_hz, report, .. } in rows {
+    for Measured { card, trace, tick_hz, report, camera, .. } in rows {
         let value = |metric: &PacingMetric| match ((metric.measure)(report), metric.unit) {
             (Some(count), Unit::One) => json!(count as u64),
             (value, _) => json!(value),
         };
         let of = [json!(card.id), json!(trace), json!(tick_hz)];
+        let seen = camera.iter().flat_map(|camera| {
+            camera_metrics.iter().map(move |(_, measure)| json!(measure(camera)))
+        });
         let read = has_read.then(|| read(trace));
-        writer
-            .row(&of.into_iter().chain(metrics().map(value)).chain(read).collect::<Vec<Value>>())?;
+        let cells = of.into_iter().chain(metrics().map(value)).chain(seen).chain(read);
+        writer.row(&cells.collect::<Vec<Value>>())?;
     }
     writer.end()?.finish(&counted(rows.len(), "row"))
 }

@@ -90,7 +90,7 @@ fn part(written: &str) -> Result<f64, String> {
 }
 
 /// Returns the name that the rule has in messages, and the text of the rule.
-fn read(written: &str) -> Result<(String, String), Error> {
+pub(super) fn read(written: &str) -> Result<(String, String), Error> {
     let path = Path::new(written);
     let (name, bytes) = if written == "-" {
         let mut bytes = Vec::new();

@@ -21,6 +21,11 @@ pub const USUAL_LATENCY_MS: f64 = 20.0;
 /// Largest difference between the tick rate and the refresh rate at which noise decides on the ticks of a frame.
 const SAME_RATE: f64 = 0.01;
 
+/// Whether ticks are about as frequent as refreshes, so that noise decides on the ticks of a frame.
+pub(super) fn is_same_rate(tick_hz: TickRate, refresh: RefreshRate) -> bool {
+    (f64::from(tick_hz) / refresh.hz() - 1.0).abs() <= SAME_RATE
+}
+
 /// Reason to prefer a loop that draws between two ticks to one that is equally smooth but draws beyond the last tick.
 const NOT_AHEAD: &str = "extrapolation or a render tick would be as smooth and no tick late, but overshoots at each kick";
 
@@ -118,7 +123,7 @@ impl<'a> MeasuredLoops<'a> {
         if fitting.is_empty() {
             return Err(NoLoop::MotionLost);
         }
-        let is_same_rate = (f64::from(self.tick_hz) / self.refresh.hz() - 1.0).abs() <= SAME_RATE;
+        let is_same_rate = is_same_rate(self.tick_hz, self.refresh);
         let (fluttering, mut fitting): (Vec<usize>, Vec<usize>) = fitting
             .into_iter()
             .partition(|&index| is_same_rate && self.loops[index].0.needs_exact_clock);

@@ -3,11 +3,12 @@
 //! A run has few frames, so the lab keeps them all and moves through them by lookup. After each choice a
 //! [`LoopWorker`] runs the loops in the background, and the lab shows each loop as soon as it has run.
 
-use std::sync::Arc;
+use std::sync::{Arc, LazyLock};
 
+use super::advice::is_same_rate;
 use super::{
     AdvisedLoop, ENGINES, FrameTrace, LoopVerdict, MeasuredLoops, NoLoop, POLICIES, PolicyCard,
-    RefreshRate, TRACES, TraceCard, USUAL_LATENCY_MS,
+    RefreshRate, TRACES, TraceCard, USUAL_LATENCY_MS, own_loop,
 };
 use crate::run::race::LaneBody;
 use crate::scene::Scene;
@@ -35,6 +36,13 @@ pub const MAX_ON_STAGE: usize = 4;
 pub const SLOWNESS: [u32; 6] = [1, 2, 4, 8, 16, 32];
 /// Initial slow-motion factor.
 pub const SLOWNESS_AT_FIRST: u32 = 8;
+/// The raw loop with a clock in floats, which runs beside the others where rounding decides on its ticks.
+static IN_FLOATS: LazyLock<&PolicyCard> = LazyLock::new(|| {
+    let lines = "# name: Fixed, in floats\n# gives: a while loop over a clock in floats\n\
+                 # caveat: as its lines say\n# users: many games\n# known: an accumulator as people write it\n\
+                 memory owed = 0\nowed += dt\nwhile owed >= H { tick 1; owed -= H }\n";
+    own_loop("fixed-in-floats", lines).expect("lines that a test runs")
+});
 /// Refresh rate of a trace that names none.
 const DISPLAY: RefreshRate = RefreshRate::new(60, 1);
 
@@ -55,6 +63,8 @@ pub enum LoopCommand {
     Slowness(u32),
     /// Moves to this time of the display, in nanoseconds.
     Seek(i64),
+    /// Shows the game time over real time, or the moments shown.
+    ShowGameTime(bool),
 }
 
 /// One body under one method in every loop, and the playback position.
@@ -83,6 +93,7 @@ pub struct LoopLab {
     /// Index of the plotted metric in [`FRAME_METRICS`].
     metric: usize,
     is_overlaid: bool,
+    shows_game_time: bool,
     selected: usize,
     now_ns: i64,
     end_ns: i64,
@@ -127,6 +138,7 @@ impl LoopLab {
             plays_opening: false,
             metric: 0,
             is_overlaid: false,
+            shows_game_time: false,
             now_ns: 0,
             end_ns: 0,
             slowness: SLOWNESS_AT_FIRST,
@@ -166,12 +178,26 @@ impl LoopLab {
             method: self.method,
             trace: self.traces[self.trace].clone(),
             first: self.on_stage.clone(),
-            engine: self.engine,
+            engine: self.beside(),
         });
-        self.lanes = POLICIES.iter().chain(self.engine).map(LoopLane::awaited).collect();
+        self.lanes = POLICIES.iter().chain(self.beside()).map(LoopLane::awaited).collect();
+        self.on_stage.retain(|&index| index < self.lanes.len());
+        if self.on_stage.is_empty() {
+            self.on_stage.push(index_of(RAW));
+        }
+        if self.selected >= self.lanes.len() {
+            self.selected = self.on_stage[0];
+        }
         self.advice = None;
         self.end_ns = 0;
         self.range = [f64::INFINITY, f64::NEG_INFINITY];
+    }
+
+    /// Returns the loop that runs beside the ideal ones. Without a chosen engine it is the raw loop with a clock in
+    /// floats, where ticks are as frequent as refreshes.
+    fn beside(&self) -> Option<&'static PolicyCard> {
+        let refresh = self.traces[self.trace].refresh();
+        self.engine.or_else(|| is_same_rate(self.scene.tick_hz, refresh).then(|| *IN_FLOATS))
     }
 
     /// Returns the request for a [`LoopWorker`]. Every choice replaces the request with a new one.
@@ -203,6 +229,12 @@ impl LoopLab {
         let raw = index_of(RAW);
         if let Some(best) = self.best().filter(|best| *best != raw && !self.is_stage_chosen) {
             self.on_stage = vec![raw.min(best), raw.max(best)];
+            // Where the raw loop flutters by itself, rounding adds nothing.
+            let is_even =
+                self.lanes[raw].report().is_some_and(|raw| raw.repeated_percent == Some(0.0));
+            if is_even && self.engine.is_none() && self.lanes.len() > POLICIES.len() {
+                self.on_stage.push(POLICIES.len());
+            }
             self.selected = raw;
         }
     }
@@ -273,7 +305,7 @@ impl LoopLab {
         self.request_loops();
     }
 
-    /// Returns the lanes of all loops, in the order of [`POLICIES`], and then that of the chosen engine.
+    /// Returns the lanes of all loops, in the order of [`POLICIES`], and then that of the loop beside them.
     pub fn lanes(&self) -> &[LoopLane] {
         &self.lanes
     }
@@ -293,10 +325,15 @@ impl LoopLab {
         self.advice?.map_or_else(NoLoop::nearest, |advised| Some(advised.index))
     }
     /// Returns the order of the lanes in the list. The chosen engine comes first, then the recommended loop or the one
-    /// nearest to a recommendation, then the others in the order of [`POLICIES`].
+    /// nearest to a recommendation. The raw loop in floats follows that without. The others have the order of
+    /// [`POLICIES`].
     pub fn listed(&self) -> Vec<usize> {
         let mut first: Vec<usize> = self.engine.map(|_| POLICIES.len()).into_iter().collect();
         first.extend(self.best());
+        if self.engine.is_none() && self.lanes.len() > POLICIES.len() {
+            first.extend([index_of(RAW), POLICIES.len()]);
+            first.dedup();
+        }
         let others = (0..self.lanes.len()).filter(|index| !first.contains(index));
         first.iter().copied().chain(others).collect()
     }
@@ -321,6 +358,10 @@ impl LoopLab {
     /// Whether the lanes on the stage overlap instead of lying below each other.
     pub fn is_overlaid(&self) -> bool {
         self.is_overlaid
+    }
+    /// Whether the instrument shows game time over real time instead of the moments shown.
+    pub fn shows_game_time(&self) -> bool {
+        self.shows_game_time
     }
     /// Returns the index of the selected lane.
     pub fn selected(&self) -> usize {
@@ -396,6 +437,11 @@ impl LoopLab {
     /// Switches between overlapping lanes and lanes below each other.
     pub(crate) fn toggle_overlay(&mut self) {
         self.is_overlaid = !self.is_overlaid;
+    }
+
+    /// Shows game time over real time, or the moments shown.
+    pub(crate) fn show_game_time(&mut self, shows_it: bool) {
+        self.shows_game_time = shows_it;
     }
 
     /// Selects the lane with this index and puts it on the stage.

@@ -7,7 +7,9 @@
 //! looks on the display. Time is counted in whole numbers of a [`TimeBase`]; there is no clock here.
 
 mod advice;
+mod camera;
 mod engines;
+mod game_time;
 mod hitch;
 mod lines;
 pub mod log;
@@ -28,7 +30,9 @@ mod verdict;
 
 pub use crate::sim::{Accumulator, Due, MAX_FRAME_MS};
 pub use advice::{AdvisedLoop, MeasuredLoops, NoLoop, USUAL_LATENCY_MS};
+pub use camera::{CAMERA_METRICS, Camera};
 pub use engines::{ENGINES, engine, own_loop};
+pub use game_time::GameTime;
 pub use hitch::Hitch;
 pub use loop_run::{LoopRun, MIN_RUN_S};
 pub use metrics::{FrameRecord, PACING_METRICS, PacingMetric, PacingReport};

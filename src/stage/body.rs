@@ -64,15 +64,8 @@ impl OutlineView<'_> {
         OutlineView { outline: &outline, ..*self }.draw_below_exact(picture, nothing);
     }
 
-    /// Writes a lane's number on a body of this colour, after that of its method `before`, if the body is a single part
-    /// with enough room.
-    pub(super) fn number(
-        &self,
-        picture: &mut Picture,
-        before: Option<usize>,
-        number: usize,
-        on: Rgba,
-    ) {
+    /// Writes a lane's number on a body of this colour, if the body is a single part with enough room.
+    pub(super) fn number(&self, picture: &mut Picture, number: impl ToString, on: Rgba) {
         let mut sizes = self.outline.marks.iter().filter_map(|mark| match *mark {
             Mark::Sprung => Some(0.42 * self.camera.block),
             Mark::Disc { radius, .. } => Some(1.1 * self.camera.size(radius)),
@@ -84,10 +77,8 @@ impl OutlineView<'_> {
         };
         let at = self.camera.points(self.outline.at);
         let colour = if is_bright(on) { [16, 24, 32, 255] } else { [255; 4] };
-        let (words, size) = match before {
-            Some(before) => (format!("{before} → {number}"), 0.6 * size),
-            None => (number.to_string(), size),
-        };
+        let words = number.to_string();
+        let size = if words.chars().count() > 2 { 0.6 * size } else { size };
         let label = Label::new(at, Align::Centre, size.min(26.0), colour, words);
         picture.labels.push(label.strong());
     }

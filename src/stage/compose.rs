@@ -339,7 +339,8 @@ impl BodyCell<'_> {
                 // In solo mode, a body has a number only if a key picks its method.
                 if studio.mode() == Mode::Race || entry < DIGITS {
                     let before = studio.deck.switched_from(lane).filter(|it| *it < DIGITS);
-                    shown.number(picture, before.map(|it| it + 1), entry + 1, colour);
+                    let before = before.map_or(String::new(), |it| format!("{} → ", it + 1));
+                    shown.number(picture, format!("{before}{}", entry + 1), colour);
                 }
                 numbered = Some(at);
             }

@@ -11,7 +11,7 @@ use crate::look::{Framing, Look};
 use crate::loops::loop_lab::{LoopFrame, LoopLab, LoopLane};
 use crate::scene::Outline;
 use crate::sim::number::round;
-use crate::studio::{Studio, digit_of};
+use crate::studio::{Studio, mark_of};
 
 /// Number of earlier frames shown.
 const FRAMES_BEFORE: usize = 14;
@@ -119,7 +119,7 @@ fn overlay(
         let Some(band) = bands.iter().find(|band| band.place == place) else { continue };
         let Some(frame) = band.frames().and_then(<[LoopFrame]>::last) else { continue };
         let at = camera.points(band.shown_outline(frame).at);
-        let number = band.label([at[0], above], Align::Centre, 12.5, digit_of(place).to_string());
+        let number = band.label([at[0], above], Align::Centre, 12.5, mark_of(place));
         if above > ground.min[1] + 0.5 * LINE {
             picture.labels.push(Label { colour: band.colour, ..number }.strong());
         }
@@ -130,7 +130,7 @@ fn overlay(
         band.name(
             picture,
             y,
-            &format!("{} {} · {}", digit_of(place), band.lane.card().name, lateness(loops, frame)),
+            &format!("{} {} · {}", mark_of(place), band.lane.card().name, lateness(loops, frame)),
         );
     }
     front.is_recorded().then_some(camera)
@@ -242,8 +242,7 @@ impl<'a> LoopBand<'a> {
         }
         let drawn = self.shown_outline(frame);
         self.body(picture, &camera, &drawn);
-        let seen = self.outline_view(&camera, &drawn);
-        seen.number(picture, None, digit_of(self.place), self.colour);
+        self.outline_view(&camera, &drawn).number(picture, mark_of(self.place), self.colour);
         self.words(picture, &camera, frame, [&drawn, &exact]);
         self.is_recorded().then_some(camera)
     }

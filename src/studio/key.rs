@@ -133,6 +133,11 @@ pub fn digit_of(index: usize) -> usize {
     (index + 1) % DIGITS
 }
 
+/// Returns the digit of the key that picks the entry with this index, or a dot if it has no key.
+pub(crate) fn mark_of(index: usize) -> String {
+    if index < DIGITS { digit_of(index).to_string() } else { "•".into() }
+}
+
 /// Every key and its command.
 pub static KEYS: &[Binding] = keys! {
     once "1 … 9, 0" "solo: this method takes over at once; race, loop lab: select that lane; bands: show its band or take it away":

@@ -1,5 +1,6 @@
 //! The loop lab as a mode of the studio. Opens and leaves the lab, and executes commands in it.
 
+use std::path::Path;
 use std::sync::Arc;
 
 use super::Studio;
@@ -14,8 +15,8 @@ use super::viewer::{Dialog, Viewer};
 use crate::loops::loop_lab::{
     FoundLoop, LoopCommand, LoopLab, LoopRequest, LoopWorker, SLOWNESS, SLOWNESS_AT_FIRST,
 };
-use crate::loops::{FrameTrace, PolicyCard};
-use crate::scene::SceneBody;
+use crate::loops::{FrameTrace, PolicyCard, own_loop};
+use crate::scene::{SceneBody, SceneErrors, ShownError};
 use crate::sim::integrators::{Method, method};
 
 /// Initial method of the body in the loop lab. Its error is small.
@@ -134,6 +135,23 @@ pub fn open_traces(studio: &mut Studio, traces: Vec<FrameTrace>) {
 pub fn runs_beside(studio: &Studio, id: &str) -> bool {
     let engine = studio.loop_lab().and_then(|loops| loops.engine());
     engine.is_some_and(|card| card.id == id)
+}
+
+/// Reads a person's own loop, which is named after its file.
+///
+/// # Errors
+/// The first fault of its lines, or that they are not text.
+pub fn read_own_loop(
+    path: &Path,
+    bytes: Vec<u8>,
+) -> Result<(&'static PolicyCard, String), Vec<ShownError>> {
+    let name = path.file_name().unwrap_or_default().to_string_lossy();
+    let text = String::from_utf8(bytes)
+        .map_err(|_| vec![format!("error: {name} is not text; save it as UTF-8").into()])?;
+    match own_loop(&path.file_stem().unwrap_or_default().to_string_lossy(), &text) {
+        Ok(card) => Ok((card, text)),
+        Err(fault) => Err(SceneErrors::of_step(&name, &text, fault).into()),
+    }
 }
 
 /// Runs a person's own loop beside the others in the loop lab, which opens if it is closed.
@@ -255,6 +273,7 @@ pub(super) fn change_loop_lab(studio: &mut Studio, command: LoopCommand) {
         LoopCommand::ToggleOnStage(index) => loops.toggle(index),
         LoopCommand::Trace(index) => loops.choose_trace(index),
         LoopCommand::Slowness(slowness) => loops.set_slowness(slowness),
+        LoopCommand::ShowGameTime(shows_it) => loops.show_game_time(shows_it),
         LoopCommand::Seek(now_ns) => {
             loops.seek(now_ns);
             studio.deck.running = false;

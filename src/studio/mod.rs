@@ -85,10 +85,11 @@ pub use frame_loop::{FrameLoop, ToDo};
 pub use gesture::{GESTURES, Gesture};
 pub use instrument::{INSTRUMENTS, Instrument, InstrumentCard, InstrumentGroup};
 pub use joint::{SpringJoint, joint_code};
+pub(crate) use key::mark_of;
 pub use key::{Binding, DIGITS, KEYS, Key, command_for, commands_named, digit_of};
 pub use looping::{
     accept_loop, loop_lab_refusal, loop_request, open_loop_lab_on, open_own_loop, open_traces,
-    run_loops, runs_beside,
+    read_own_loop, run_loops, runs_beside,
 };
 pub use my_spring::MySpring;
 pub use notice::Notice;

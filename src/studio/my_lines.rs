@@ -1,11 +1,15 @@
 //! A person's own lines, typed or pasted in the window: a rule opens as a scene at three frame rates, a method races in
-//! the open scene.
+//! the open scene, and a loop runs beside those of the loop lab.
+
+use std::path::Path;
 
 use super::Studio;
+use super::looping::{open_own_loop, read_own_loop};
 use super::opening::{open_as, race_own_method};
 use super::viewer::{Dialog, ReadLines, Viewer};
 use crate::run::race::Mode;
 use crate::scene::{LaneSpec, SceneErrors, is_rule};
+use crate::sim::law::LoopText;
 use crate::tools::Rule;
 use crate::tools::rule::rule_scene;
 
@@ -13,13 +17,18 @@ use crate::tools::rule::rule_scene;
 const MY_LINES: &str = "my lines";
 /// Name of the lines in messages, as that of a file.
 const NAME: &str = "mine.step";
+const LOOP_NAME: &str = "mine.loop";
 /// Frames per second for which a rule is written.
 const FPS: u32 = 60;
 
 /// Reads the lines of the dialog after a change.
 pub(super) fn read_lines(viewer: &mut Viewer, text: String) {
     let mut read = ReadLines::default();
-    if is_rule(text.as_bytes()) {
+    if is_loop(&text) {
+        let fault = LoopText::read(&text).err();
+        read.report =
+            fault.map_or(vec![], |fault| SceneErrors::of_step(LOOP_NAME, &text, fault).into());
+    } else if is_rule(text.as_bytes()) {
         match Rule::read(&text, FPS.into()) {
             Ok(rule) => read.code = rule.code(&text, viewer.language()).ok().map(|code| code.text),
             Err(fault) => read.report = SceneErrors::of_step(NAME, &text, fault).into(),
@@ -29,20 +38,30 @@ pub(super) fn read_lines(viewer: &mut Viewer, text: String) {
     viewer.dialog = Some(Dialog::Lines(read));
 }
 
+/// Whether the lines make ticks.
+fn is_loop(text: &str) -> bool {
+    text.split(['\n', ';', '{', '}']).any(|part| part.trim_start().starts_with("tick "))
+}
+
 /// Runs the lines, or reports their faults in the dialog.
 pub(super) fn run_lines(studio: &mut Studio) {
     let text = studio.viewer.preferences.my_lines.clone();
     let done = match is_rule(text.as_bytes()) {
-        true => rule_scene(NAME, &text, FPS.into()).map(|scene| {
-            studio.loops = None;
-            open_as(&mut studio.deck, &mut studio.viewer, MY_LINES, scene, Mode::Race);
+        _ if is_loop(&text) => read_own_loop(Path::new(LOOP_NAME), text.into()).map(|(card, _)| {
+            studio.viewer.dialog = None;
+            open_own_loop(studio, card);
         }),
-        false => {
-            LaneSpec::from_step(NAME, text.as_bytes()).map(|lane| race_own_method(studio, lane))
-        }
+        true => rule_scene(NAME, &text, FPS.into())
+            .map(|scene| {
+                studio.loops = None;
+                open_as(&mut studio.deck, &mut studio.viewer, MY_LINES, scene, Mode::Race);
+            })
+            .map_err(Vec::from),
+        false => LaneSpec::from_step(NAME, text.as_bytes())
+            .map(|lane| race_own_method(studio, lane))
+            .map_err(Vec::from),
     };
-    if let Err(errors) = done {
-        let report = errors.into();
+    if let Err(report) = done {
         studio.viewer.dialog = Some(Dialog::Lines(ReadLines { report, code: None }));
     }
 }
@@ -76,6 +95,22 @@ mod tests {
         assert_eq!((studio.mode(), studio.race().entrants().len()), (Mode::Race, 3));
         assert!(studio.running() && studio.viewer.dialog().is_none());
         assert_eq!(studio.deck.scene_name(), "my lines");
+    }
+
+    #[test]
+    fn a_pasted_loop_runs_in_the_lab_and_is_edited_while_it_runs() {
+        let mut studio =
+            typed("memory owed = 0\nowed += dt\nwhile owed >= H { tick 1; owed -= H }");
+        studio.apply(ViewCommand::RunLines);
+        let engine = |studio: &Studio| studio.loop_lab().unwrap().engine().unwrap();
+        assert!(engine(&studio).has_fixed_tick && studio.viewer.dialog().is_none());
+        studio.apply(ViewCommand::AskForLines);
+        studio.apply(ViewCommand::TypeLines("tick 1 of dtt".into()));
+        assert!(read(&studio).report[0].message.starts_with("mine.loop:1:11: unknown name `dtt`"));
+        studio.apply(ViewCommand::TypeLines("tick 1 of dt".into()));
+        studio.apply(ViewCommand::RunLines);
+        assert!(!engine(&studio).has_fixed_tick && studio.viewer.dialog().is_none());
+        assert_eq!(studio.viewer.notice.as_deref(), Some("mine: reloaded"));
     }
 
     #[test]

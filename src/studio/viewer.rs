@@ -78,7 +78,8 @@ pub struct Preferences {
     pub(super) language: Language,
     pub(super) typed_path: String,
     pub(super) my_spring: MySpring,
-    pub(super) my_lines: String,
+    /// Text of the dialog of a person's own lines.
+    pub my_lines: String,
     /// Index of the stop at which the guide was last closed.
     pub(super) left_at: usize,
     /// Whether the driver keeps a recording of the run. If so, nothing is lost when the program ends.

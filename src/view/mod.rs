@@ -33,7 +33,7 @@ mod touch;
 pub use {egui, wgpu};
 
 pub use chart::AxisScale;
-pub use chart::figure::{Axis, Chart, Figure, FigureCurve, Legend};
+pub use chart::figure::{Axis, Chart, Figure, FigureCurve, Legend, span};
 pub use copying::{ClipboardText, clipboard_text};
 pub use cpu_executor::{CpuExecutor, Rasterizer, letter_instructions};
 pub use drawing::Drawing;

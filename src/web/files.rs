@@ -5,7 +5,9 @@ use std::path::Path;
 use js_sys::{Array, Uint8Array};
 use regatta::loops::trace_file;
 use regatta::scene::Scene;
-use regatta::studio::{instrument_file_name, open_file, open_traces, show_mistakes};
+use regatta::studio::{
+    instrument_file_name, open_file, open_own_loop, open_traces, read_own_loop, show_mistakes,
+};
 use regatta::view::{instrument_csv, instrument_svg};
 use wasm_bindgen::JsCast;
 use wasm_bindgen::prelude::{Closure, JsValue};
@@ -20,7 +22,7 @@ use crate::driver::{Driver, with};
 pub(crate) fn pick_file() {
     let Some(input) = element::<HtmlInputElement>("input") else { return };
     input.set_type("file");
-    input.set_accept(".toml,.csv,.txt");
+    input.set_accept(".toml,.csv,.txt,.loop");
     let picked = input.clone();
     let picked = Closure::once_into_js(move || {
         if let Some(file) = picked.files().and_then(|files| files.get(0)) {
@@ -83,33 +85,30 @@ fn save_blob(blob: &Blob, name: &str) {
 }
 
 impl Driver {
-    /// Opens a scene, or the loop lab on a trace of frames. A dialog shows any mistakes.
+    /// Opens a scene, or the loop lab on a trace of frames or with a person's own loop. A dialog shows any mistakes.
     fn open_bytes(&mut self, name: &str, bytes: &[u8]) {
         let path = Path::new(name);
         let is = |known| path.extension().is_some_and(|end| end.eq_ignore_ascii_case(known));
-        if is("csv") || is("txt") {
-            match trace_file::from_bytes(name, bytes) {
-                Ok(traces) => open_traces(&mut self.frames.studio, traces),
-                Err(error) => {
-                    let report = vec![format!("error: {error}").into()];
-                    show_mistakes(
-                        &mut self.frames.studio.deck,
-                        &mut self.frames.studio.viewer,
-                        path,
-                        report,
-                    );
-                }
-            }
+        let studio = &mut self.frames.studio;
+        let opened = if is("csv") || is("txt") {
+            let traces = trace_file::from_bytes(name, bytes);
+            let traces = traces.map_err(|error| vec![format!("error: {error}").into()]);
+            traces.map(|traces| open_traces(studio, traces))
+        } else if is("loop") {
+            read_own_loop(path, bytes.into()).map(|(card, text)| {
+                open_own_loop(studio, card);
+                // A page cannot watch a file.
+                studio.viewer.preferences.my_lines = text;
+                studio
+                    .viewer
+                    .set_notice(format!("{} runs beside the others: Shift S edits it", card.id));
+            })
         } else {
-            match Scene::from_bytes(name, bytes) {
-                Ok(scene) => open_file(&mut self.frames.studio, path, scene),
-                Err(errors) => show_mistakes(
-                    &mut self.frames.studio.deck,
-                    &mut self.frames.studio.viewer,
-                    path,
-                    errors.into(),
-                ),
-            }
+            let scene = Scene::from_bytes(name, bytes).map_err(Into::into);
+            scene.map(|scene| open_file(studio, path, scene))
+        };
+        if let Err(report) = opened {
+            show_mistakes(&mut studio.deck, &mut studio.viewer, path, report);
         }
         self.frames.skip_time();
         self.request_frame();

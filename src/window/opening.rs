@@ -4,14 +4,14 @@ use std::path::{MAIN_SEPARATOR, Path, PathBuf, is_separator};
 use std::sync::Arc;
 
 use super::caught::caught;
-use crate::loops::{FrameTrace, PolicyCard, own_loop, trace_file};
+use crate::loops::{FrameTrace, PolicyCard, trace_file};
 use crate::regular_file::{self, MAX_TABLE_BYTES};
 use crate::run::diff::{Chosen, Comparison, NotComparable, Tolerance, diff};
 use crate::run::trace::{Made, last_tick};
-use crate::scene::{LaneSpec, MAX_FILE_BYTES, SCENES, Scene, SceneErrors, ShownError, is_rule};
+use crate::scene::{LaneSpec, MAX_FILE_BYTES, SCENES, Scene, ShownError, is_rule};
 use crate::studio::{
     SceneList, StageCommand, Studio, ViewCommand, open_file, open_own_loop, open_traces,
-    race_own_method, refuse_typed_path, runs_beside, show_comparison, show_mistakes,
+    race_own_method, read_own_loop, refuse_typed_path, runs_beside, show_comparison, show_mistakes,
 };
 
 /// Reads a scene file. Returns its scene and its text, or its mistakes as the command line would print them.
@@ -115,7 +115,8 @@ impl RequestedFile {
         } else if has_ending(&self.path, "step") {
             lines_in(&self.path, read)
         } else if has_ending(&self.path, "loop") {
-            loop_in(&self.path)
+            let bytes = bytes_of(&self.path, MAX_FILE_BYTES)?;
+            read_own_loop(&self.path, bytes).map(|(card, text)| FileContent::Loop(card, text))
         } else {
             scene_in(&self.path, read)
         }
@@ -222,17 +223,6 @@ fn lines_in(path: &Path, read: &ReadScene) -> Result<FileContent, Vec<ShownError
         (FileContent::Scene { scene, .. }, Ok(text)) => FileContent::Scene { scene, text },
         (held, _) => held,
     })
-}
-
-/// Reads a person's own loop, which is named after its file.
-fn loop_in(path: &Path) -> Result<FileContent, Vec<ShownError>> {
-    let name = path.file_name().unwrap_or_default().to_string_lossy();
-    let text = String::from_utf8(bytes_of(path, MAX_FILE_BYTES)?)
-        .map_err(|_| vec![format!("error: {name} is not text; save it as UTF-8").into()])?;
-    match own_loop(&stem(path), &text) {
-        Ok(card) => Ok(FileContent::Loop(card, text)),
-        Err(fault) => Err(SceneErrors::of_step(&name, &text, fault).into()),
-    }
 }
 
 fn bytes_of(path: &Path, most: usize) -> Result<Vec<u8>, Vec<ShownError>> {

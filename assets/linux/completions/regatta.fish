@@ -978,7 +978,8 @@ complete -c regatta -n "__fish_regatta_using_subcommand loop" -l rows -d 'Take t
 complete -c regatta -n "__fish_regatta_using_subcommand loop" -l where -d 'Take the rows whose cell in COLUMN is VALUE' -r
 complete -c regatta -n "__fish_regatta_using_subcommand loop" -l separator -d 'The separator of the cells: a character, tab or space [default: found]' -r
 complete -c regatta -n "__fish_regatta_using_subcommand loop" -l shown -d 'The column of the log with the moment that a frame shows, which is a row of its own' -r
-complete -c regatta -n "__fish_regatta_using_subcommand loop" -l speed -d 'The speed of the column of --shown in units a second [default: fitted]' -r
+complete -c regatta -n "__fish_regatta_using_subcommand loop" -l follow -d 'The lines of a camera that follows a body as the pictures show it, or a file of them' -r
+complete -c regatta -n "__fish_regatta_using_subcommand loop" -l speed -d 'The speed of the column of --shown, or of the body of --follow, in units a second [default: fitted, or 1]' -r
 complete -c regatta -n "__fish_regatta_using_subcommand loop" -l tick-hz -d 'Ticks per second [default: the scene\'s]' -r
 complete -c regatta -n "__fish_regatta_using_subcommand loop" -l step -d 'The length of a tick, in place of --tick-hz' -r
 complete -c regatta -n "__fish_regatta_using_subcommand loop" -l display-hz -d 'The refresh rate [default: the trace\'s]' -r

@@ -66,6 +66,18 @@ pub(super) fn print_advice(rows: &[Measured], latency_ms: f64, limits: FrameLimi
     }
 }
 
+/// Prints how much the body judders in the picture of a camera, if there is one.
+pub(super) fn print_camera(rows: &[Measured]) {
+    let seen = rows.iter().filter_map(|row| {
+        let error_ms = row.camera.as_ref()?.seen_error_rms_ms()?;
+        Some(format!("{} {}", row.card.id, round((1000.0 * error_ms).round() / 1000.0, 3)))
+    });
+    let listed = seen.collect::<Vec<_>>().join(", ");
+    if !listed.is_empty() {
+        print_status(&format!("  in the camera's picture the body judders by (ms, RMS): {listed}"));
+    }
+}
+
 /// Prints how the moments of a log were taken, and the loop that comes nearest to them.
 pub(super) fn print_log(log: &ShownLog, trace: &FrameTrace, tick_hz: TickRate) {
     let nearest = log.nearest(trace, tick_hz).map(|nearest| {

@@ -4,7 +4,7 @@ use super::measured::Measured;
 use crate::look::palette::Theme;
 use crate::scene::Scene;
 use crate::sim::number::round;
-use crate::view::{Axis, AxisScale, Chart, Figure, FigureCurve, Legend};
+use crate::view::{Axis, AxisScale, Chart, Figure, FigureCurve, Legend, span};
 
 /// Number of charts of a trace.
 const CHARTS: usize = 3;
@@ -50,28 +50,10 @@ fn curve(index: usize, row: &Measured, dots: f32, points: Vec<[f64; 2]>) -> Figu
     FigureCurve { name: row.card.id.into(), colour, dash, dots, points }
 }
 
-/// Returns the range of the moments of display, at least a millisecond.
-fn span_of<'a>(points: impl Iterator<Item = &'a [f64; 2]>) -> [f64; 2] {
-    let along: Vec<f64> = points.map(|point| point[0]).collect();
-    let start = along.iter().copied().reduce(f64::min).unwrap_or(0.0);
-    [start, along.into_iter().fold(start + 1.0, f64::max)]
-}
-
-/// Returns the diagonal on which every picture shows the moment of its display.
-fn real_time(span: [f64; 2]) -> FigureCurve {
-    FigureCurve {
-        name: "the moment of display".into(),
-        colour: Theme::Dark.palette().text,
-        dash: [1.0, 0.0],
-        dots: 0.0,
-        points: span.map(|end| [end; 2]).into(),
-    }
-}
-
 /// Returns the chart of the displayed moment against the moment of display. The display holds each picture until the
 /// next.
 fn chart_of_moments(rows: &[Measured], before: &str) -> Chart {
-    let [start, end] = span_of(rows.iter().flat_map(|row| &row.drawn));
+    let [start, end] = span(rows.iter().flat_map(|row| &row.drawn), 0);
     let steps = |row: &Measured| -> Vec<[f64; 2]> {
         let pairs = row.drawn.windows(2);
         let held = pairs.flat_map(|pair| [pair[0], [pair[1][0], pair[0][1]]]);
@@ -88,26 +70,19 @@ fn chart_of_moments(rows: &[Measured], before: &str) -> Chart {
             Axis { name: "moment of display (ms)", view: [start, end], scale: AxisScale::Linear },
             Axis { name: "moment shown (ms)", view: [least, end], scale: AxisScale::Linear },
         ],
-        curves: [real_time([start, end])].into_iter().chain(curves).collect(),
+        curves: [FigureCurve::real_time(Theme::Dark, [start, end])]
+            .into_iter()
+            .chain(curves)
+            .collect(),
     }
 }
 
-/// Returns the chart of game time over real time around the longest frame. Slow motion is flatter than the diagonal,
-/// fast-forward is steeper, and a jump is a step.
 fn game_time(rows: &[Measured], before: &str) -> Chart {
-    let span = span_of(rows.iter().flat_map(|row| &row.paced));
-    let game = rows.iter().flat_map(|row| &row.paced).map(|point| point[1]);
-    let view = game.fold(span, |[least, most], ms| [least.min(ms), most.max(ms)]);
-    let curves = rows.iter().enumerate().map(|(n, row)| curve(n, row, 0.0, row.paced.clone()));
-    Chart {
-        title: sentence(before, "game time over real time"),
-        legend: Legend::Shared,
-        axes: [
-            Axis { name: "real time (ms)", view: span, scale: AxisScale::Linear },
-            Axis { name: "game time (ms)", view, scale: AxisScale::Linear },
-        ],
-        curves: [real_time(span)].into_iter().chain(curves).collect(),
-    }
+    let points =
+        |row: &Measured| row.game_time.as_ref().map_or(Vec::new(), |it| it.points().into());
+    let curves = rows.iter().enumerate().map(|(n, row)| curve(n, row, 0.0, points(row)));
+    let title = sentence(before, "game time over real time");
+    Chart::of_game_time(title, Theme::Dark, curves.collect())
 }
 
 /// Returns the chart of the animation error against the latency. The best loop is at the lower left.

@@ -1,26 +1,20 @@
 //! Measurement of a loop over a trace.
 
-use std::{io, iter};
+use std::io;
 
 use serde_json::{Value, json};
 
 use crate::commands::output::Output;
 use crate::commands::output::table::RowWriter;
 use crate::loops::{
-    FrameLimits, FrameRecord, FrameTrace, LoopRun, PacingReport, PolicyCard, RefreshRate,
+    Camera, FrameLimits, FrameRecord, FrameTrace, GameTime, LoopRun, PacingReport, PolicyCard,
+    RefreshRate,
 };
 use crate::scene::{LaneSpec, Scene};
 use crate::sim::TickRate;
 
-/// Number of frames in the picture of a run, and number of frames before a long one.
+/// Number of frames in the picture of a run.
 const DRAWN: usize = 30;
-const BEFORE: usize = 8;
-/// Real time of the picture of game time, in milliseconds.
-const PACED_MS: f64 = 3000.0;
-/// Minimum duration of a long frame, in refreshes of the display.
-const LONG: f64 = 2.5;
-/// Maximum number of frames that are searched for a long one.
-const MAX_SEARCHED: usize = 100_000;
 
 /// A row of the table, which is the measurement of a policy.
 pub(super) struct Measured {
@@ -36,17 +30,21 @@ pub(super) struct Measured {
     pub(super) report: PacingReport,
     /// Moment of display, and displayed moment, of each drawn frame, in milliseconds.
     pub(super) drawn: Vec<[f64; 2]>,
-    /// Real time and game time of each frame around the drawn ones, in milliseconds.
-    pub(super) paced: Vec<[f64; 2]>,
+    /// Game time over real time, if there is a picture.
+    pub(super) game_time: Option<GameTime>,
+    /// The camera, if one follows the body.
+    pub(super) camera: Option<Camera>,
 }
 
-/// The part of a trace that is measured.
-#[derive(Clone, Copy)]
+/// What is measured of a trace.
+#[derive(Clone)]
 pub(super) struct Stretch {
     /// Time at which the measurement ends.
     pub(super) until_ns: i64,
-    /// Time at which the drawn frames start, if there is a picture.
-    pub(super) drawn_from_ns: Option<i64>,
+    /// The game time before the first frame, if there is a picture.
+    pub(super) game_time: Option<GameTime>,
+    /// The camera before the first frame, if one follows the body.
+    pub(super) camera: Option<Camera>,
 }
 
 /// Measures a policy on a trace, until the end of the measured part or until `stop` returns true. Writes a row for each
@@ -56,28 +54,30 @@ pub(super) fn measure(
     spec: LaneSpec,
     (card, limits): (&'static PolicyCard, FrameLimits),
     trace: &FrameTrace,
-    Stretch { until_ns, drawn_from_ns }: Stretch,
+    Stretch { until_ns, mut game_time, mut camera }: Stretch,
     stop: &dyn Fn() -> bool,
     mut frames: Option<&mut RowWriter<Output>>,
 ) -> io::Result<Measured> {
-    let (mut drawn, mut paced, mut written) = (Vec::new(), Vec::<[f64; 2]>::new(), Ok(()));
+    let (mut drawn, mut written) = (Vec::new(), Ok(()));
     let name = trace.name();
     let run = LoopRun::limited(scene, spec, card, trace, limits);
     let report = run.measure(until_ns, stop, |run, record| {
-        if let Some(displayed_ns) = record.frame.displayed_ns
-            && drawn_from_ns.is_some_and(|from_ns| displayed_ns >= from_ns)
-            && drawn.len() <= DRAWN
-        {
-            drawn.push([displayed_ns as f64 / 1e6, record.shown_ms]);
+        if let Some(game_time) = &mut game_time {
+            game_time.frame(run, record);
+            if let Some(displayed_ns) = record.frame.displayed_ns
+                && displayed_ns >= game_time.from_ns()
+                && drawn.len() <= DRAWN
+            {
+                drawn.push([displayed_ns as f64 / 1e6, record.shown_ms]);
+            }
         }
-        if drawn_from_ns.is_some_and(|from_ns| record.frame.began_ns >= from_ns)
-            && paced.first().is_none_or(|[first, _]| began_ms(record) - first <= PACED_MS)
-        {
-            let pacer = run.lane().pacer();
-            paced.push([began_ms(record), pacer.base().milliseconds(pacer.simulated())]);
+        if let Some(camera) = &mut camera {
+            camera.frame(record);
         }
         if let (Some(frames), Ok(())) = (&mut frames, &written) {
-            written = frames.row(&row(name, card, run, record));
+            let place = camera.as_ref().map(|camera| json!(camera.place()));
+            let cells: Vec<Value> = row(name, card, run, record).into_iter().chain(place).collect();
+            written = frames.row(&cells);
         }
     });
     written?;
@@ -92,12 +92,9 @@ pub(super) fn measure(
         missing_display,
         report,
         drawn,
-        paced,
+        game_time,
+        camera,
     })
-}
-
-fn began_ms(record: &FrameRecord) -> f64 {
-    record.frame.began_ns as f64 / 1e6
 }
 
 fn row(trace: &str, card: &PolicyCard, run: &LoopRun, record: &FrameRecord) -> [Value; 12] {
@@ -118,21 +115,4 @@ fn row(trace: &str, card: &PolicyCard, run: &LoopRun, record: &FrameRecord) -> [
         json!(owed_ms),
         json!(alpha),
     ]
-}
-
-/// Returns the display time of the first frame to draw. If a frame is long, it is shortly before the longest one, and
-/// otherwise at the start.
-pub(super) fn drawn_from_ns(trace: &FrameTrace, until_ns: i64) -> i64 {
-    let mut frames = trace.frames();
-    let displayed: Vec<i64> = iter::from_fn(|| frames.next(0))
-        .take_while(|frame| frame.began_ns < until_ns)
-        .take(MAX_SEARCHED)
-        .filter_map(|frame| Some(frame.displayed_ns? + trace.lead_ns().unwrap_or_default()))
-        .collect();
-    let gaps = displayed.windows(2).map(|pair| pair[1] - pair[0]).enumerate();
-    let refresh_ns = 1e9 / trace.refresh().hz();
-    let long = gaps.filter(|(_, gap)| *gap as f64 > LONG * refresh_ns);
-    // The first of several equally long frames counts.
-    let longest = long.min_by_key(|(_, gap)| -gap);
-    longest.map_or(0, |(index, _)| displayed[index.saturating_sub(BEFORE)])
 }

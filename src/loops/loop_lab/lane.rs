@@ -1,6 +1,6 @@
 //! The frames of the body in one loop, and the metrics of a frame.
 
-use crate::loops::{FrameTrace, LoopRun, MIN_RUN_S, PacingReport, PolicyCard};
+use crate::loops::{FrameTrace, GameTime, LoopRun, MIN_RUN_S, PacingReport, PolicyCard};
 use crate::run::past::Energies;
 use crate::run::race::LaneBody;
 use crate::run::{Scale, Unit};
@@ -14,6 +14,7 @@ const MAX_S: f64 = 20.0;
 pub struct LoopLane {
     card: &'static PolicyCard,
     frames: Vec<LoopFrame>,
+    game_time: GameTime,
     report: Option<PacingReport>,
 }
 
@@ -66,7 +67,7 @@ impl LoopFrame {
 impl LoopLane {
     /// Creates a placeholder without frames for a loop that has not run yet.
     pub(super) fn awaited(card: &'static PolicyCard) -> Self {
-        Self { card, frames: Vec::new(), report: None }
+        Self { card, frames: Vec::new(), game_time: GameTime::default(), report: None }
     }
 
     /// Runs a loop until it ends or `stop` returns true.
@@ -80,9 +81,11 @@ impl LoopLane {
         let mut frames: Vec<LoopFrame> = Vec::new();
         let mut ticks = 0;
         let until_ns = (scene.seconds.clamp(MIN_RUN_S, MAX_S) * 1e9) as i64;
+        let mut game_time = GameTime::around_longest(trace, until_ns);
         let run = LoopRun::new(scene, LaneSpec::plain(method), card, trace);
         let report = run.measure(until_ns, stop, |run, record| {
             ticks += record.steps.count;
+            game_time.frame(run, record);
             let Some(displayed_ns) = record.frame.displayed_ns else { return };
             frames.push(LoopFrame {
                 displayed_ns,
@@ -95,7 +98,7 @@ impl LoopLane {
                 exact_state: LoopState::of(run.exact_body(0)),
             });
         });
-        Self { card, frames, report: Some(report) }
+        Self { card, frames, game_time, report: Some(report) }
     }
 
     /// Returns the card of the loop's policy.
@@ -105,6 +108,10 @@ impl LoopLane {
     /// Returns the displayed frames, in order.
     pub fn frames(&self) -> &[LoopFrame] {
         &self.frames
+    }
+    /// Returns the game time over real time, around the longest frame.
+    pub fn game_time(&self) -> &GameTime {
+        &self.game_time
     }
     /// Whether the loop has run.
     pub fn was_run(&self) -> bool {

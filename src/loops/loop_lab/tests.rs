@@ -328,3 +328,49 @@ fn an_engine_runs_beside_the_loops_and_is_not_advised() {
     studio.choose_engine(1000);
     assert_eq!(studio.engine().unwrap().id, "phaser");
 }
+
+#[test]
+fn the_raw_loop_in_floats_is_beside_it_where_rounding_decides_on_its_ticks() {
+    let mut studio = studio();
+    let steady = studio.traces().iter().position(|trace| trace.name() == "steady-60").unwrap();
+    studio.choose_trace(steady);
+    run(&mut studio);
+    let repeated = |index: usize| {
+        studio.lanes()[index].report().and_then(|report| report.repeated_percent).unwrap()
+    };
+    assert_eq!(studio.lanes()[POLICIES.len()].card().name, "Fixed, in floats");
+    assert!(repeated(index_of(RAW)) == 0.0 && repeated(POLICIES.len()) > 30.0);
+    assert_eq!(studio.listed()[1..3], [index_of(RAW), POLICIES.len()]);
+    assert_eq!(on_stage(&studio), ["fixed", "hysteresis", "fixed-in-floats"]);
+    studio.select(POLICIES.len());
+    studio.set_tick_hz(30);
+    assert!(studio.lanes().len() == POLICIES.len() && studio.selected() == index_of(RAW));
+    run(&mut studio);
+    studio.set_tick_hz(60);
+    studio.choose_engine(0);
+    assert_eq!(studio.lanes()[POLICIES.len()].card(), &ENGINES[0]);
+}
+
+#[test]
+fn game_time_is_kept_around_the_longest_frame() {
+    let mut studio = studio();
+    let points = |studio: &LoopLab, id: &str| {
+        let lane = studio.lanes().iter().find(|lane| lane.card().id == id).unwrap();
+        (lane.game_time().has_long(), lane.game_time().points().to_vec())
+    };
+    let (has_long, even) = points(&studio, "fixed-linear");
+    assert!(!has_long && even.len() > 55 && even[0][0] == 0.0);
+    let hitch = studio.traces().iter().position(|trace| trace.name() == "alt-tab-5s").unwrap();
+    studio.choose_trace(hitch);
+    run(&mut studio);
+    for (id, jump_ms) in [("variable", 5000.0), ("fixed", 250.0)] {
+        let (has_long, points) = points(&studio, id);
+        let most = |axis: usize| {
+            let gaps = points.windows(2).map(|pair| pair[1][axis] - pair[0][axis]);
+            gaps.fold(0.0, f64::max)
+        };
+        assert!(has_long && (most(0) - 5000.0).abs() < 20.0, "{id}: {}", most(0));
+        assert!((most(1) - jump_ms).abs() < 20.0, "{id}: {}", most(1));
+        assert!(points.len() > 180, "{} frames", points.len());
+    }
+}

@@ -5,9 +5,11 @@ use egui::{
     vec2,
 };
 
-use super::{Arrow, AxisScale, Curve, Dots, Drawing, LineStyle, PlotArea, legend, paint, plot};
-use crate::look::palette::Rgba;
-use crate::view::theme::{colour, palette};
+use super::{
+    Arrow, AxisScale, Curve, Dots, Drawing, LineStyle, PlotArea, Primitive, legend, paint, plot,
+};
+use crate::look::palette::{Rgba, Theme};
+use crate::view::theme::{PanelPalette, colour, palette};
 
 /// A picture of one or more charts.
 #[derive(Clone, Debug, PartialEq)]
@@ -68,6 +70,41 @@ pub struct FigureCurve {
     pub dots: f32,
     /// Points of the curve, as values on the two axes.
     pub points: Vec<[f64; 2]>,
+}
+
+/// Returns the range of points along an axis, at least 1.
+pub fn span<'a>(points: impl Iterator<Item = &'a [f64; 2]>, axis: usize) -> [f64; 2] {
+    let along: Vec<f64> = points.map(|point| point[axis]).collect();
+    let start = along.iter().copied().reduce(f64::min).unwrap_or(0.0);
+    [start, along.into_iter().fold(start + 1.0, f64::max)]
+}
+
+impl FigureCurve {
+    /// Returns the diagonal on which every picture shows the moment of its display.
+    pub fn real_time(theme: Theme, span: [f64; 2]) -> Self {
+        let (name, colour) = ("the moment of display".into(), theme.palette().text);
+        Self { name, colour, dash: [1.0, 0.0], dots: 0.0, points: span.map(|end| [end; 2]).into() }
+    }
+}
+
+impl Chart {
+    /// Returns the chart of loops' [game time](crate::loops::GameTime) over real time, beside the diagonal. A game
+    /// stands still between two frames.
+    pub fn of_game_time(title: String, theme: Theme, mut curves: Vec<FigureCurve>) -> Self {
+        let points = || curves.iter().flat_map(|curve| &curve.points);
+        let real = span(points(), 0);
+        let game = span(points().chain(&[[0.0, real[0]], [0.0, real[1]]]), 1);
+        let axis = |name, view| Axis { name, view, scale: AxisScale::Linear };
+        let axes = [axis("real time (ms)", real), axis("game time (ms)", game)];
+        for curve in &mut curves {
+            let held = curve.points.windows(2).map(|pair| [pair[1][0], pair[0][1]]);
+            let last = curve.points.last().copied();
+            let points = curve.points.iter().copied().zip(held).flat_map(|(at, held)| [at, held]);
+            curve.points = points.chain(last).collect();
+        }
+        curves.insert(0, FigureCurve::real_time(theme, real));
+        Self { title, legend: Legend::Shared, axes, curves }
+    }
 }
 
 /// Room around the note, in points.
@@ -153,11 +190,16 @@ fn show_chart(ui: &mut Ui, chart: &Chart, place: Rect) {
         show_legend(ui, &chart.curves.iter().collect::<Vec<_>>());
         ui.add_space(5.0);
     }
+    let room = place.with_min_y(ui.cursor().top());
+    paint(ui.painter(), &layout(chart, room, palette(ui)));
+}
+
+/// Lays out a chart without its title and legend.
+pub(in crate::view) fn layout(chart: &Chart, room: Rect, palette: &PanelPalette) -> Vec<Primitive> {
     let bounds = [0, 1].map(|axis| {
         let Axis { view, scale, .. } = &chart.axes[axis];
         view.map(|value| scale.place(value))
     });
-    let room = place.with_min_y(ui.cursor().top());
     let area = PlotArea { rect: super::inside(room, INDENT, 0.0), bounds };
     let marks = [0, 1].map(|axis| area.marks(axis, chart.axes[axis].scale, MARKS_APART[axis]));
     let curves: Vec<Curve> = chart.curves.iter().map(|curve| laid_out(curve, chart)).collect();
@@ -168,10 +210,10 @@ fn show_chart(ui: &mut Ui, chart: &Chart, place: Rect) {
     });
     let arrows = arrows.collect();
     let drawing = Drawing { curves, arrows, ..Drawing::default() };
-    let mut all = plot(&area, marks, &drawing, palette(ui), f32::INFINITY);
+    let mut all = plot(&area, marks, &drawing, palette, f32::INFINITY);
     let names = chart.axes.each_ref().map(|axis| axis.name);
-    all.extend(super::names(&area, area.rect.left(), names, palette(ui)).map(Into::into));
-    paint(ui.painter(), &all);
+    all.extend(super::names(&area, area.rect.left(), names, palette).map(Into::into));
+    all
 }
 
 /// Converts a curve to places on the chart's axes, and drops points that are not finite there.

@@ -6,11 +6,12 @@ use std::iter;
 use egui::{Color32, Rect, RichText, Sense, Ui, Vec2, vec2};
 
 use super::breakpoints;
-use crate::loops::loop_lab::{LoopLab, LoopLane};
+use crate::loops::loop_lab::{LoopCommand, LoopLab, LoopLane};
 use crate::run::csv_row;
-use crate::studio::{Command, Studio, digit_of};
-use crate::view::chart::Primitive;
+use crate::studio::{Command, Studio, mark_of};
+use crate::view::chart::figure::{self, Chart, FigureCurve};
 use crate::view::chart::legend::{self, Entry};
+use crate::view::chart::{self, Primitive};
 use crate::view::theme::{PanelPalette, colour, palette, strong_font};
 
 pub(super) mod controls;
@@ -25,6 +26,9 @@ pub(super) mod table;
 
 /// Title of the charts of the loop lab.
 const TITLE: &str = "Moment shown against moment of display";
+const GAME_TIME: &str = "Game time over real time";
+/// Remark on a trace that shows no response to a hitch.
+const NO_HITCH: &str = "No frame is long here: hitch-100ms and alt-tab-5s have one.";
 /// Share of the height for the two small plots together.
 const TWO: f32 = 0.4;
 /// Gap between the two small plots, and gap above them, in points.
@@ -42,16 +46,23 @@ pub(super) fn show(ui: &mut Ui, studio: &Studio, room: Vec2, commands: &mut Vec<
 fn show_lab(ui: &mut Ui, loops: &LoopLab, room: Vec2, commands: &mut Vec<Command>) {
     let top = ui.cursor().top();
     let lanes = on_stage(loops, palette(ui));
-    ui.horizontal(|ui| {
-        let title = match room.x >= breakpoints::TITLE_OF_LOOP_LAB {
-            true => TITLE,
-            false => "Moments shown",
-        };
-        ui.label(RichText::new(title).font(strong_font(15.0)).color(palette(ui).text));
+    let has_menus =
+        room.x >= breakpoints::TITLE_OF_LOOP_LAB || room.y >= breakpoints::TWO_PLOTS_BELOW;
+    ui.horizontal_wrapped(|ui| {
+        if has_menus {
+            for (name, is_it) in [("Moments shown", false), ("Game time", true)] {
+                if ui.selectable_label(loops.shows_game_time() == is_it, name).clicked() {
+                    commands.push(Command::Loop(LoopCommand::ShowGameTime(is_it)));
+                }
+            }
+        } else {
+            let title = if loops.shows_game_time() { "Game time" } else { "Moments shown" };
+            ui.label(RichText::new(title).font(strong_font(15.0)).color(palette(ui).text));
+        }
         if !controls::has_trace_menu_above(ui) {
             controls::trace_menu(ui, loops, commands);
         }
-        if room.x >= breakpoints::TITLE_OF_LOOP_LAB {
+        if has_menus {
             controls::engine_menu(ui, loops, commands);
         }
     });
@@ -60,8 +71,16 @@ fn show_lab(ui: &mut Ui, loops: &LoopLab, room: Vec2, commands: &mut Vec<Command
         ui.label(RichText::new(waiting).color(palette(ui).dim));
         return;
     }
+    let has_hitch = lanes.iter().any(|lane| lane.lane.game_time().has_long());
+    if loops.shows_game_time() && !has_hitch {
+        ui.label(RichText::new(NO_HITCH).color(palette(ui).dim));
+    }
     let height = (top + room.y - ui.cursor().top()).max(60.0);
-    let (room, _) = ui.allocate_exact_size(vec2(room.x, height), Sense::hover());
+    let (room, response) = ui.allocate_exact_size(vec2(room.x, height), Sense::hover());
+    if loops.shows_game_time() {
+        response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, GAME_TIME));
+        return chart::paint(ui.painter(), &game_time(&lanes, room, palette(ui)));
+    }
     let (upper, below) = parts(room);
     moments::show(ui, upper, loops, &lanes);
     if let Some([left, right]) = below {
@@ -81,6 +100,10 @@ pub(super) fn layout(
         return Some((live::TITLE, Vec::new(), live::layout(studio, room, palette)?));
     };
     let lanes = on_stage(loops, palette);
+    if loops.shows_game_time() {
+        let entries = legend_entries(loops, &lanes, palette);
+        return Some((GAME_TIME, entries, game_time(&lanes, room, palette)));
+    }
     let (upper, below) = parts(room);
     let moments = moments::area(upper, loops, &lanes);
     let mut all =
@@ -90,6 +113,20 @@ pub(super) fn layout(
         all.extend(errors::layout(right, loops, &lanes, palette));
     }
     Some((TITLE, legend_entries(loops, &lanes, palette), all))
+}
+
+/// Lays out the chart of the loops' game time in a room.
+fn game_time(lanes: &[ShownLane<'_>], room: Rect, palette: &PanelPalette) -> Vec<Primitive> {
+    let curve = |lane: &ShownLane<'_>| {
+        let (colour, dash) = palette.theme.loop_style(lane.index);
+        let points = lane.lane.game_time().points().into();
+        FigureCurve { name: String::new(), colour, dash, dots: 0.0, points }
+    };
+    // The selected lane lies in front.
+    let mut sorted: Vec<&ShownLane<'_>> = lanes.iter().collect();
+    sorted.sort_by_key(|lane| lane.is_selected);
+    let curves = sorted.into_iter().map(curve).collect();
+    figure::layout(&Chart::of_game_time(String::new(), palette.theme, curves), room, palette)
 }
 
 /// Returns the rectangle of the moments, and those of two small plots below if `room` is high enough.
@@ -130,7 +167,7 @@ fn on_stage<'a>(loops: &'a LoopLab, palette: &PanelPalette) -> Vec<ShownLane<'a>
 /// Returns the legend of the charts.
 fn legend_entries(loops: &LoopLab, lanes: &[ShownLane<'_>], palette: &PanelPalette) -> Vec<Entry> {
     let entry = |lane: &ShownLane<'_>| {
-        let name = format!("{} {}", digit_of(lane.index), lane.lane.card().name);
+        let name = format!("{} {}", mark_of(lane.index), lane.lane.card().name);
         let off = moments::off_the_plot(loops, lane.lane);
         let name = name + &off.map(|words| format!(" ({words})")).unwrap_or_default();
         Entry { name, colour: lane.colour, dash: lane.dash, is_front: lane.is_selected }
@@ -174,4 +211,36 @@ fn of_window(studio: &Studio) -> Vec<String> {
     });
     let head = "frame,frame_time_ms,ticks,dropped,animation_error_ms\n".to_owned();
     iter::once(head).chain(frames).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::Scene;
+    use crate::studio::{open_loop_lab_on, run_loops};
+    use crate::view::tests::testing::TestWindow;
+
+    #[test]
+    fn game_time_and_the_menu_of_engines_are_whole_on_every_window() {
+        for size in [[1280.0, 720.0], [800.0, 600.0]] {
+            let mut studio = Studio::new(Scene::built_in("spring").unwrap());
+            open_loop_lab_on(&mut studio, "alt-tab-5s");
+            run_loops(&mut studio);
+            let mut window = TestWindow::new(size);
+            let words = |window: &mut TestWindow, studio: &Studio| {
+                (0..3).for_each(|_| drop(window.panels(studio, Vec::new())));
+                window.panels(studio, Vec::new()).1.whole()
+            };
+            let shown = words(&mut window, &studio);
+            let tab = shown.iter().find(|(_, words)| words == "Game time").expect("a tab").0;
+            let asked = window.click(&studio, tab.center());
+            assert_eq!(asked, [Command::Loop(LoopCommand::ShowGameTime(true))]);
+            studio.apply(LoopCommand::ShowGameTime(true));
+            let shown: Vec<String> =
+                words(&mut window, &studio).into_iter().map(|(_, words)| words).collect();
+            for part in ["real time (ms)", "game time (ms)", "your engine"] {
+                assert!(shown.iter().any(|words| words == part), "{part} at {size:?}: {shown:?}");
+            }
+        }
+    }
 }

@@ -5,7 +5,7 @@ use egui::{FontId, Rect, Response, Sense, Stroke, StrokeKind, Ui, Vec2, pos2, ve
 use super::verdict::VerdictText;
 use super::{breakpoints, keycap, lanes};
 use crate::run::MenuIndex;
-use crate::studio::{Command, DIGITS, StageCommand, Studio, digit_of};
+use crate::studio::{Command, DIGITS, StageCommand, Studio, mark_of};
 use crate::view::theme::{TYPE, palette, strong_font};
 
 /// Height of the first row, and of each further row, in points.
@@ -141,16 +141,11 @@ fn listed(studio: &Studio) -> Vec<MenuIndex> {
     (0..studio.deck.offered().min(DIGITS)).chain(further).collect()
 }
 
-/// Returns the digit of a method's key, or a dot if it has no key.
-fn digit(entry: MenuIndex) -> String {
-    if entry < DIGITS { digit_of(entry).to_string() } else { "•".into() }
-}
-
 fn width(ui: &Ui, studio: &Studio, entry: MenuIndex, naming: Naming) -> f32 {
     // The name is measured in strong type, so that a selection moves no other method.
     let name = naming.name(ui, studio, entry);
     let named = name.map(|(name, font)| text_width(ui, &name, strong_font(font.size)) + PADDING);
-    let digit = keycap::width(ui.painter(), &digit(entry));
+    let digit = keycap::width(ui.painter(), &mark_of(entry));
     3.0 * PADDING + digit + named.unwrap_or_default() + SIGN
 }
 
@@ -166,13 +161,13 @@ fn method(
     let (rect, response) = ui.allocate_exact_size(size, Sense::click());
     let (name, is_chosen) = (studio.lane_name(entry), entry == studio.active());
     let verdict = lanes::verdict_on(studio, entry);
-    let spoken = format!("{} {name}, {}", digit(entry), verdict.whole());
+    let spoken = format!("{} {name}, {}", mark_of(entry), verdict.whole());
     response.widget_info(|| {
         egui::WidgetInfo::selected(egui::Role::RadioButton, true, is_chosen, &spoken)
     });
     let (colour, _) = palette(ui).style(studio.entries(), &studio.entries()[entry]);
     let shown = naming.name(ui, studio, entry);
-    paint(ui, rect, (&digit(entry), colour), shown, is_chosen, &verdict);
+    paint(ui, rect, (&mark_of(entry), colour), shown, is_chosen, &verdict);
     if response.hovered() || response.has_focus() {
         let stroke = Stroke::new(1.0, palette(ui).accent);
         ui.painter().rect_stroke(rect, 7.0, stroke, StrokeKind::Inside);
@@ -250,7 +245,7 @@ mod tests {
         }
         let narrow = words(&studio, 800.0);
         assert!(narrow.contains(&studio.lane_name(studio.active())), "{narrow:?}");
-        assert!((0..DIGITS).all(|entry| narrow.contains(&digit(entry))), "{narrow:?}");
+        assert!((0..DIGITS).all(|entry| narrow.contains(&mark_of(entry))), "{narrow:?}");
     }
 
     #[test]

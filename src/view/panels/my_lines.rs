@@ -43,7 +43,7 @@ pub(super) fn show(
         }
         let dim = palette(ui).dim;
         let words =
-            "A rule moves x towards a target once a frame; a method calls a(x, v) and has h.";
+            "A rule moves x towards a target once a frame; a method calls a(x, v) and has h; a loop says tick.";
         ui.label(RichText::new(words).color(dim));
         ui.horizontal(|ui| {
             let is_entered =

@@ -193,3 +193,61 @@ fn a_column_of_moments_is_a_row_beside_the_loop_that_it_resembles() {
     let refused = run_in(folder.path(), "loop --trace x.csv --shown y");
     assert!(stderr(&refused).contains("no column \"y\""), "{}", stderr(&refused));
 }
+
+#[test]
+fn a_camera_sees_the_body_as_each_loop_draws_it() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("camera.step");
+    let seen = |rule: &str| {
+        fs::write(&file, rule).unwrap();
+        let options = "loop --trace edge --trace steady-144 --policy fixed --policy fixed-linear --policy whole-refresh";
+        let output = run_in(
+            folder.path(),
+            &format!("{options} --follow camera.step --format json --frame-rows f.csv --force"),
+        );
+        assert_eq!(output.status.code(), Some(0), "{rule}: {}", stderr(&output));
+        assert!(stderr(&output).contains("the body judders by (ms, RMS): fixed "));
+        let rows: Vec<serde_json::Value> = serde_json::from_slice(&output.stdout).unwrap();
+        rows
+    };
+    // One that stays still sees what the display shows, and a rigid one sees the ground judder in place of the body.
+    for (rule, body, camera) in [("x += 0 * (target - x)", 1.0, 0.0), ("x = target", 0.0, 1.0)] {
+        for row in seen(rule) {
+            let error = number(&row, "animation_error_rms_ms");
+            near(&row, "seen_error_rms_ms", body * error);
+            near(&row, "seen_error_max_ms", body * number(&row, "animation_error_max_ms"));
+            near(&row, "camera_error_rms_ms", camera * error);
+        }
+    }
+    let rows = seen("x += (target - x) * 8 * dt");
+    let error = |row: usize| number(&rows[row], "seen_error_rms_ms");
+    assert!((10.0..11.0).contains(&error(0)) && (7.5..8.5).contains(&error(3)), "{rows:?}");
+    assert!(error(4) < 1e-6 && error(5) < 1e-5, "{rows:?}");
+    // Where the clock is noisy, the dt of the camera is, even below a loop that heals the noise of the body.
+    assert!((0.3..0.6).contains(&error(2)), "{rows:?}");
+    assert!((110.0..130.0).contains(&number(&rows[4], "camera_lag_ms")), "{rows:?}");
+    let mut frames = csv::Reader::from_path(folder.path().join("f.csv")).unwrap();
+    assert_eq!(frames.headers().unwrap().iter().last(), Some("camera"));
+    let mut last: Option<[f64; 2]> = None;
+    for row in frames.records().map(Result::unwrap).take(400) {
+        let [began_ms, shown_ms, camera] = [3, 5, 12].map(|at| row[at].parse::<f64>().unwrap());
+        let expected = last.map_or(shown_ms / 1e3, |[began, camera]| {
+            camera + (shown_ms / 1e3 - camera) * 8.0 * (began_ms - began) / 1e3
+        });
+        assert!((camera - expected).abs() < 1e-9, "{row:?}: {expected}");
+        last = Some([began_ms, camera]);
+    }
+    for (bad, told) in [
+        ("x += (target - y) * dt", "camera.step:1:16: unknown name `y`"),
+        ("x += dt", "no line reads `target`"),
+        ("v += target", "the lines leave `x` where it is"),
+        ("x += h * a(x, v)", "calls no acceleration"),
+    ] {
+        fs::write(&file, bad).unwrap();
+        let refused = run_in(folder.path(), "loop --follow camera.step");
+        assert_eq!(refused.status.code(), Some(2), "{bad}");
+        assert!(stderr(&refused).contains(told), "{bad}: {}", stderr(&refused));
+    }
+    let refused = run("loop --speed 3");
+    assert!(refused.status.code() == Some(2) && stderr(&refused).contains("give --shown or"));
+}
