@@ -29,6 +29,7 @@ mod own_methods;
 mod port;
 mod recordings;
 mod rule;
+mod schema;
 mod show;
 mod signals;
 mod sweep;
