@@ -48,7 +48,7 @@ fn show_lab(ui: &mut Ui, loops: &LoopLab, room: Vec2, commands: &mut Vec<Command
     let lanes = on_stage(loops, palette(ui));
     let has_menus =
         room.x >= breakpoints::TITLE_OF_LOOP_LAB || room.y >= breakpoints::TWO_PLOTS_BELOW;
-    ui.horizontal_wrapped(|ui| {
+    let header = |ui: &mut Ui| {
         if has_menus {
             for (name, is_it) in [("Moments shown", false), ("Game time", true)] {
                 if ui.selectable_label(loops.shows_game_time() == is_it, name).clicked() {
@@ -65,7 +65,12 @@ fn show_lab(ui: &mut Ui, loops: &LoopLab, room: Vec2, commands: &mut Vec<Command
         if has_menus {
             controls::engine_menu(ui, loops, commands);
         }
-    });
+    };
+    if has_menus {
+        ui.horizontal_wrapped(header)
+    } else {
+        ui.horizontal(header)
+    };
     legend::show(ui, &legend_entries(loops, &lanes, palette(ui)));
     if let Some(waiting) = loops.waiting() {
         ui.label(RichText::new(waiting).color(palette(ui).dim));
