@@ -16,10 +16,12 @@ use super::tick_rate::rate_of_a_log;
 use crate::regular_file;
 use crate::scene::SceneErrors;
 use crate::sim::law::MAX_STEP_BYTES;
-use crate::sim::number::significant;
+use crate::sim::number::{round, significant};
 use crate::tools::Rule;
 use crate::tools::port::{PortOutcome, UI_SPRINGS, Wish, followers};
-use crate::tools::rule::{Course, Piece, UNITS, VisibleMotion, rule_scene};
+use crate::tools::rule::{
+    BouncesSeen, Course, Piece, RuleBounce, UNITS, VisibleMotion, rule_scene,
+};
 use crate::tools::source_code::Language;
 
 const ABOUT: &str = "\
@@ -31,6 +33,11 @@ The answer has the frequency, the damping ratio, the overshoot and the time to t
 the way, at the author's frame rate and at others. It has the rates below which the rule rings and
 grows, the same spring in the words of user interfaces, and code that moves alike at any frame rate.
 
+A rule that falls onto a floor at 0 is a ball: the answer has the heights of its bounces over the true
+ones, and two numbers. s is that of the step: -1 for semi-implicit Euler, 0 for an exact fall, 1 for
+explicit Euler. kappa is that of the line at the floor: 0 where it keeps the energy, 0.5 where it sets
+the place, 1 where it mirrors it. Without loss an impact adds (s + kappa) g h to the speed.
+
 In JSON, hz is the visible frequency, null if nothing swings, and spring.hz the one without damping;
 code has all languages.
 
@@ -38,6 +45,7 @@ Examples:
   regatta rule 'v = (v + (target - x) * 0.2) * 0.85; x += v'
   regatta rule 'x += (target - x) * 20 * dt' --fps 30 --as csharp
   regatta rule 'v *= 0.9; x += v * dt' --format json
+  regatta rule 'v -= 9.81*dt; x += v*dt; if x < 0 { x = 0; v = -0.8*v }'
   regatta rule camera.step
   regatta rule camera.step --fps 50 --scene > camera.toml";
 
@@ -172,6 +180,18 @@ fn object(rule: &Rule, written: &str) -> Value {
         "linear": rule.is_linear(),
         "seen": rule.motions().into_iter().map(seen).collect::<Vec<_>>(),
         "pieces": pieces.iter().map(piece).collect::<Vec<_>>(),
+        "bounce": rule.bounce().map(|bounce| json!({
+            "gravity": bounce.gravity,
+            "restitution": bounce.restitution,
+            "s": bounce.s,
+            "kappa": bounce.kappa,
+            "seen": bounce.seen.iter().map(|seen| {
+                let [after_1, after_5, after_10] = seen.heights;
+                json!({
+                    "fps": seen.fps, "after_1": after_1, "after_5": after_5, "after_10": after_10,
+                })
+            }).collect::<Vec<_>>(),
+        })),
         "within": rule.settles_within(),
         "jump_speed": rule.jump_speed(),
         "hint": hint(rule, written),
@@ -233,6 +253,36 @@ fn tables(rule: &Rule) -> String {
     said
 }
 
+/// Columns of a rule that turns a ball at a floor.
+const BOUNCES: &[Column<BouncesSeen>] = &[
+    Column::shown("fps", "FPS", |seen| seen.fps.to_string().into()),
+    Column::shown("after_1", "AFTER 1", |seen| digits(seen.heights[0], 3)),
+    Column::shown("after_5", "AFTER 5", |seen| digits(seen.heights[1], 3)),
+    Column::shown("after_10", "AFTER 10", |seen| digits(seen.heights[2], 3)),
+];
+
+/// Returns what a rule does to the bounces of a ball.
+fn bounces(bounce: &RuleBounce) -> String {
+    let number = |value: f64| round((1e3 * value).round() / 1e3, 3);
+    let gain = number(bounce.s + bounce.kappa);
+    let course = match bounce.s + bounce.kappa {
+        gain if gain.abs() < 1e-3 => "the height is right at every rate but for single starts",
+        gain if gain > 0.0 => "it bounces too high, and without loss higher every time",
+        _ => "it bounces too low, and the lower the frame rate the sooner it dies",
+    };
+    format!(
+        "a ball that falls by {} a second per second and keeps {} of its speed at the floor:\n\
+         s = {} by the step, kappa = {} by the line at the floor\n\
+         without loss an impact adds (s + kappa) g h = {gain} g h to the speed: {course}\n\
+         \nheight after impacts over the true one, mean of many starts:\n{}",
+        number(bounce.gravity),
+        number(bounce.restitution),
+        number(bounce.s),
+        number(bounce.kappa),
+        text(BOUNCES, &bounce.seen, "  "),
+    )
+}
+
 /// Describes the motion of a piece at the author's rate.
 fn outcome(piece: &Piece, whole: &Rule) -> String {
     let seen = piece.rule.motion_at(piece.rule.fps());
@@ -286,7 +336,9 @@ fn report_text(rule: &Rule, written: &str, language: Language) -> String {
     };
     let mut said = format!("{kind}; of {}\n\n", rule.state().collect::<Vec<_>>().join(" and "));
     let pieces = rule.pieces();
-    if pieces.is_empty() {
+    if let Some(bounce) = rule.bounce() {
+        said = bounces(&bounce);
+    } else if pieces.is_empty() {
         said += &tables(rule);
     } else {
         let state = rule.state().collect::<Vec<_>>().join(" and ");

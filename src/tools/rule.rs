@@ -15,10 +15,12 @@ use crate::sim::numerics::bisect;
 use crate::tools::identify::Effective;
 
 pub use any_rate::RuleCode;
+pub use bounce::{BouncesSeen, RuleBounce};
 pub use pieces::{Course, Piece};
 pub use scene::rule_scene;
 
 mod any_rate;
+mod bounce;
 mod driven;
 mod pieces;
 mod scene;
@@ -248,10 +250,15 @@ impl Rule {
 
     /// Returns the visible motion at the usual frame rates and at the author's, with the lowest rate first.
     pub fn motions(&self) -> Vec<VisibleMotion> {
+        self.rates().into_iter().map(|fps| self.motion_at(fps)).collect()
+    }
+
+    /// Returns the usual frame rates and the author's, with the lowest first.
+    fn rates(&self) -> Vec<f64> {
         let mut rates: Vec<f64> = FRAME_RATES.into_iter().chain([self.fps]).collect();
         rates.sort_by(f64::total_cmp);
         rates.dedup();
-        rates.into_iter().map(|fps| self.motion_at(fps)).collect()
+        rates
     }
 
     /// Returns the visible motion at this many frames per second.

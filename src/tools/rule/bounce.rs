@@ -1,0 +1,268 @@
+//! What the lines of a rule do to the bounces of a ball.
+//!
+//! Under gravity every impact adds (s + κ) g h to the speed of a ball that loses none. The step decides s, which is -1
+//! for semi-implicit Euler, 0 for an exact fall and 1 for explicit Euler. The line for the impact decides κ, which is 0
+//! where it keeps the energy, 0.5 where it puts the ball on the floor, and 1 where it mirrors the place.
+
+use super::Rule;
+
+/// Duration of the first fall in seconds, which is that from 1 m on Earth.
+const FALL_S: f64 = 0.451_523_640_985_730_9;
+/// Distance in units from the floor at which a ball falls freely.
+const ALOFT: f64 = 1e5;
+/// Frames per second at which a single impact shows the limit of short frames.
+const FINE_FPS: f64 = 1e6;
+/// Number of starts, whose heights and speeds differ, and the part of the height and of the speed by which they do.
+const STARTS: u32 = 64;
+const HIGHER: f64 = 0.1;
+const FASTER: f64 = 0.07;
+/// Numbers of impacts after which the height is compared, and maximum number of frames for them.
+const AFTER: [usize; 3] = [1, 5, 10];
+const MAX_FRAMES: u32 = 20_000;
+/// Relative rounding error of a free fall.
+const ROUNDING: f64 = 1e-6;
+
+/// A ball that falls onto a floor at 0 and is turned there, in the units of the rule.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RuleBounce {
+    /// g, the acceleration of the fall.
+    pub gravity: f64,
+    /// e, the part of the speed that an impact leaves.
+    pub restitution: f64,
+    /// s, by the step.
+    pub s: f64,
+    /// κ, by the line for the impact.
+    pub kappa: f64,
+    /// The heights at each frame rate, with the lowest rate first.
+    pub seen: Vec<BouncesSeen>,
+}
+
+/// The bounces of a rule at a frame rate.
+#[derive(Clone, Debug, PartialEq)]
+pub struct BouncesSeen {
+    /// Frames per second.
+    pub fps: f64,
+    /// Heights after 1, 5 and 10 impacts over the true ones, as means of many starts. `None` if not all starts get there.
+    pub heights: [Option<f64>; 3],
+}
+
+/// A free fall: its acceleration, the part of `g h²` in the way of a step, and the side of the floor on which it is.
+#[derive(Clone, Copy)]
+struct Fall {
+    acceleration: f64,
+    way: f64,
+    side: f64,
+}
+
+impl Fall {
+    /// Returns the place and the velocity after a free step of `h` (s).
+    fn step(self, [x, v]: [f64; 2], h: f64) -> [f64; 2] {
+        [x + v * h + self.way * self.acceleration * h * h, v + self.acceleration * h]
+    }
+
+    /// Returns the place and the velocity before a free step of `h` (s).
+    fn back(self, [x, v]: [f64; 2], h: f64) -> [f64; 2] {
+        let v = v - self.acceleration * h;
+        [x - v * h - self.way * self.acceleration * h * h, v]
+    }
+}
+
+impl Rule {
+    /// Returns what the rule does to bounces; `None` if it is no fall onto a floor at 0.
+    pub fn bounce(&self) -> Option<RuleBounce> {
+        let is_of_two = self.text.with_causes(vec![0]).iter().all(|index| *index < 2);
+        if !is_of_two || self.is_linear || self.text.carried().len() < 2 {
+            return None;
+        }
+        let fall = self.fall()?;
+        let gravity = fall.acceleration.abs();
+        let fast = gravity * FALL_S;
+        // The tick after the crossing is this part of a frame's way below the floor.
+        let hit = |part: f64| {
+            let h = 1.0 / FINE_FPS;
+            let start = [fall.side * fast * h * (1.0 - part), -fall.side * fast];
+            let after = self.frame_of(start, FINE_FPS);
+            let is_turned = |[_, v]: [f64; 2]| v * fall.side > 0.0;
+            if is_turned(after) {
+                return Some((fall.step(start, h), after));
+            }
+            // The line for the impact stands before the step.
+            let later = self.frame_of(after, FINE_FPS);
+            is_turned(later).then(|| (after, fall.back(later, h)))
+        };
+        let (before, after) = hit(1e-6)?;
+        let restitution = -after[1] / before[1];
+        let speed = |[x, v]: [f64; 2], kept: f64| {
+            let energy = (v / kept) * (v / kept) + 2.0 * gravity * x * fall.side;
+            energy.max(0.0).sqrt()
+        };
+        let (before, after) = hit(0.5)?;
+        let kappa = (speed(after, restitution) - speed(before, 1.0)) * FINE_FPS / gravity;
+        if !(restitution > 0.0 && restitution < 1.5) || kappa.abs() > 3.0 {
+            return None;
+        }
+        let heights = |fps| self.heights(fall, restitution, fps);
+        let seen = self.rates().into_iter().map(|fps| BouncesSeen { fps, heights: heights(fps) });
+        let s = 1.0 - 2.0 * fall.way;
+        Some(RuleBounce { gravity, restitution, s, kappa, seen: seen.collect() })
+    }
+
+    /// Returns the place and the velocity after a frame.
+    fn frame_of(&self, [x, v]: [f64; 2], fps: f64) -> [f64; 2] {
+        let mut registers = self.text.registers();
+        self.text.set(&mut registers, 0, x);
+        self.text.set(&mut registers, 1, v);
+        self.text.step(&mut registers, self.step_length(fps), 0.0);
+        [0, 1].map(|index| self.text.value(&registers, index))
+    }
+
+    /// Returns the free fall of the rule, if it has one.
+    fn fall(&self) -> Option<Fall> {
+        let gained = |side: f64, fps: f64| self.frame_of([side * ALOFT, 0.0], fps)[1] * fps;
+        let side = -gained(1.0, self.fps).signum();
+        let acceleration = gained(side, self.fps);
+        let is_alike = |other: f64| (other / acceleration - 1.0).abs() < ROUNDING;
+        let falls = acceleration.is_finite() && acceleration * side < 0.0;
+        let moving = self.frame_of([2.0 * side * ALOFT, 1.0], self.fps)[1] - 1.0;
+        let is_free = is_alike(gained(side, 3.0 * self.fps)) && is_alike(moving * self.fps);
+        if !falls || !is_free {
+            return None;
+        }
+        // From 0, where no digits of the way are lost; the floor lies on the other side.
+        let near = side * acceleration.abs();
+        let moved = self.frame_of([near, 0.0], self.fps)[0] - near;
+        let way = moved * self.fps * self.fps / acceleration;
+        (-ROUNDING..1.0 + ROUNDING).contains(&way).then_some(Fall { acceleration, way, side })
+    }
+
+    /// Returns the mean heights after the impacts over the true ones.
+    fn heights(&self, fall: Fall, restitution: f64, fps: f64) -> [Option<f64>; 3] {
+        let gravity = fall.acceleration.abs();
+        let mut sums = AFTER.map(|_| Some(0.0));
+        for start in 0..STARTS {
+            let part = f64::from(start) / f64::from(STARTS);
+            // The fraction of multiples of an irrational number spreads the speeds evenly over the heights.
+            let speed =
+                FASTER * gravity * FALL_S * (f64::from(start) * 0.618_033_988_749_894_9).fract();
+            let height = 0.5 * gravity * FALL_S * FALL_S * (1.0 + HIGHER * (part - 0.5));
+            let found = self.apexes([fall.side * height, fall.side * speed], fall.side, fps);
+            let top = height + speed * speed / (2.0 * gravity);
+            for ((sum, after), apex) in sums.iter_mut().zip(AFTER).zip(found) {
+                let kept = libm::pow(restitution, 2.0 * after as f64);
+                *sum = sum.zip(apex).map(|(sum, apex)| sum + apex / (top * kept));
+            }
+        }
+        sums.map(|sum| sum.map(|sum| sum / f64::from(STARTS)))
+    }
+
+    /// Returns the heights after the impacts of one run, each by the parabola through the three highest frames.
+    fn apexes(&self, start: [f64; 2], side: f64, fps: f64) -> [Option<f64>; 3] {
+        let mut found = AFTER.map(|_| None);
+        let (mut state, mut flight, mut impacts) = (start, vec![side * start[0]], 0);
+        for _ in 0..MAX_FRAMES {
+            let next = self.frame_of(state, fps);
+            if !next.iter().all(|number| number.is_finite()) {
+                break;
+            }
+            if state[1] * side < 0.0 && next[1] * side > 0.0 {
+                if let Some(at) = AFTER.iter().position(|after| *after == impacts) {
+                    found[at] = Some(apex(&flight));
+                }
+                if impacts == AFTER[2] {
+                    break;
+                }
+                impacts += 1;
+                flight.clear();
+            }
+            flight.push(side * next[0]);
+            state = next;
+        }
+        found
+    }
+}
+
+/// Returns the height of the parabola through the highest place and its neighbours.
+fn apex(flight: &[f64]) -> f64 {
+    let highest = (0..flight.len()).max_by(|a, b| flight[*a].total_cmp(&flight[*b]));
+    let highest = highest.unwrap_or_default();
+    let middle = highest.clamp(1, flight.len().saturating_sub(2).max(1));
+    let [Some(before), Some(at), Some(after)] =
+        [middle - 1, middle, middle + 1].map(|index| flight.get(index))
+    else {
+        return flight.get(highest).copied().unwrap_or_default();
+    };
+    let (slope, bend) = ((after - before) / 2.0, after - 2.0 * at + before);
+    if bend < 0.0 { at - slope * slope / (2.0 * bend) } else { flight[highest] }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn bounce(lines: &str) -> RuleBounce {
+        Rule::read(lines, 60.0).unwrap().bounce().unwrap_or_else(|| panic!("{lines}"))
+    }
+
+    #[test]
+    fn the_step_and_the_line_at_the_floor_have_the_numbers_of_the_formula() {
+        let steps = [
+            (-1.0, "v -= 9.81*dt; x += v*dt; "),
+            (0.0, "x += v*dt - 4.905*dt*dt; v -= 9.81*dt; "),
+            (1.0, "x += v*dt; v -= 9.81*dt; "),
+        ];
+        let floors = [
+            (0.0, "if x < 0 && v < 0 { v = -E*v }"),
+            (0.5, "if x < 0 { x = 0; v = -E*v }"),
+            (1.0, "if x < 0 { x = -x; v = -E*v }"),
+            (0.0, "if x < 0 { v = E*sqrt(v*v + 2*9.81*x); x = 0 }"),
+        ];
+        for (s, step) in steps {
+            for (kappa, floor) in floors {
+                for e in [1.0, 0.8] {
+                    let floor = floor.replace('E', &e.to_string());
+                    for lines in [format!("{step}{floor}"), format!("{floor}\n{step}")] {
+                        let found = bounce(&lines);
+                        assert!((found.gravity - 9.81).abs() < 1e-6, "{lines}: {found:?}");
+                        assert!((found.restitution - e).abs() < 1e-5, "{lines}: {found:?}");
+                        assert!((found.s - s).abs() < 1e-5, "{lines}: {found:?}");
+                        assert!((found.kappa - kappa).abs() < 1e-3, "{lines}: {found:?}");
+                    }
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn heights_over_the_true_ones_are_those_of_independent_runs() {
+        let semi_implicit = "v -= 9.81*dt; x += v*dt; ";
+        let verlet = "x += v*dt - 4.905*dt*dt; v -= 9.81*dt; ";
+        // Means of 200 other starts.
+        for (step, e, at, wanted) in [
+            (semi_implicit, 1.0, 2, [0.394, 0.662, 0.852]),
+            (verlet, 1.0, 2, [1.867, 1.403, 1.159]),
+            (semi_implicit, 0.8, 1, [0.463, 0.646, 0.845]),
+            (verlet, 0.8, 1, [1.72, 1.339, 1.127]),
+        ] {
+            let found = bounce(&format!("{step}if x < 0 {{ x = 0; v = -{e}*v }}"));
+            for (fps, wanted) in [30.0, 60.0, 144.0].into_iter().zip(wanted) {
+                let seen = found.seen.iter().find(|seen| seen.fps == fps).unwrap();
+                let height = seen.heights[at].unwrap();
+                assert!((height / wanted - 1.0).abs() < 0.03, "{step} {e} {fps}: {height}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_floor_below_the_screen_is_one_too_and_other_rules_have_no_bounces() {
+        let down = bounce("v += 980*dt; x += v*dt; if x > 0 { x = 0; v = -0.5*v }");
+        assert!((down.gravity - 980.0).abs() < 1e-3 && (down.kappa - 0.5).abs() < 1e-3);
+        for lines in [
+            "x += (target - x)*8*dt",
+            "v -= 9.81*dt; x += v*dt",
+            "v = (v + (target - x)*0.2)*0.85; x += v",
+            "v -= 9.81*dt; x += v*dt; if x < 0 { x = 0; v = 0 }",
+        ] {
+            assert_eq!(Rule::read(lines, 60.0).unwrap().bounce(), None, "{lines}");
+        }
+    }
+}
