@@ -1,10 +1,12 @@
 //! `regatta loop`: measures how game loops distort motion over the frames of a display.
 
 use std::collections::HashSet;
+use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::Ordering;
 
 use clap::Args;
+use rayon::prelude::*;
 use serde_json::{Value, json};
 
 use super::argument::number_that;
@@ -22,7 +24,7 @@ use super::own_file::{LOOP_OR_FILE, METHOD_OR_FILE};
 use super::table_args::{TableArgs, taken_object};
 use super::tick_rate::TickRateArgs;
 use super::trace_source::traces;
-use super::{rule, scene_file};
+use super::{jobs, rule, scene_file};
 use crate::atomic_file::IfExists;
 use crate::loops::log::ShownLog;
 use crate::loops::{
@@ -286,6 +288,7 @@ pub(super) fn run(args: &LoopArgs) -> Result<(), Error> {
     #[cfg(feature = "view")]
     let plot = plot.transpose()?;
 
+    let pool = jobs::pool(0)?;
     let mut rows = Vec::new();
     for trace in &traces {
         let from = rows.len();
@@ -293,20 +296,20 @@ pub(super) fn run(args: &LoopArgs) -> Result<(), Error> {
         let game_time = args.plot().map(|_| GameTime::around_longest(trace, until_ns));
         let stretch = Stretch { until_ns, game_time, camera: camera.clone() };
         let log = args.shown.as_ref().and_then(|_| ShownLog::of(trace, args.speed));
-        for card in log.iter().map(|log| log.card).chain(policies.iter().copied()) {
-            let spec = LaneSpec::plain(args.method);
-            rows.push(measure(
-                &scene,
-                spec,
-                (card, limits),
-                trace,
-                stretch.clone(),
-                &stop,
-                frames.as_mut(),
-            )?);
-            if stop() {
-                return Err(Error::nothing_written());
-            }
+        let cards: Vec<_> =
+            log.iter().map(|log| log.card).chain(policies.iter().copied()).collect();
+        let run = |card, frames: Option<&mut _>| {
+            let (spec, stretch) = (LaneSpec::plain(args.method), stretch.clone());
+            measure(&scene, spec, (card, limits), trace, stretch, &stop, frames)
+        };
+        // The rows of frames are written one loop after the other.
+        let measured: io::Result<Vec<Measured>> = match &mut frames {
+            None => pool.install(|| cards.into_par_iter().map(|card| run(card, None)).collect()),
+            Some(frames) => cards.into_iter().map(|card| run(card, Some(frames))).collect(),
+        };
+        rows.extend(measured?);
+        if stop() {
+            return Err(Error::nothing_written());
         }
         if let Some(log) = &log {
             advice::print_log(log, trace, scene.tick_hz);

@@ -30,8 +30,11 @@ pub struct Camera {
     largest: f64,
 }
 
-/// Every metric of a camera: its name in output, in milliseconds of the body's motion.
-pub const CAMERA_METRICS: [(&str, fn(&Camera) -> Option<f64>); 4] = [
+/// A metric of a camera: its name in output, and its value in milliseconds of the body's motion.
+pub type CameraMetric = (&'static str, fn(&Camera) -> Option<f64>);
+
+/// Every metric of a camera.
+pub const CAMERA_METRICS: [CameraMetric; 4] = [
     ("seen_error_rms_ms", Camera::seen_error_rms_ms),
     ("seen_error_max_ms", |camera| camera.of_changes(camera.largest * camera.changes)),
     ("camera_error_rms_ms", |camera| camera.of_changes(camera.squares[1]).map(f64::sqrt)),

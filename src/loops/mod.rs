@@ -30,7 +30,7 @@ mod verdict;
 
 pub use crate::sim::{Accumulator, Due, MAX_FRAME_MS};
 pub use advice::{AdvisedLoop, MeasuredLoops, NoLoop, USUAL_LATENCY_MS};
-pub use camera::{CAMERA_METRICS, Camera};
+pub use camera::{CAMERA_METRICS, Camera, CameraMetric};
 pub use engines::{ENGINES, engine, own_loop};
 pub use game_time::GameTime;
 pub use hitch::Hitch;

@@ -227,7 +227,7 @@ fn a_camera_sees_the_body_as_each_loop_draws_it() {
     assert!((0.3..0.6).contains(&error(2)), "{rows:?}");
     assert!((110.0..130.0).contains(&number(&rows[4], "camera_lag_ms")), "{rows:?}");
     let mut frames = csv::Reader::from_path(folder.path().join("f.csv")).unwrap();
-    assert_eq!(frames.headers().unwrap().iter().last(), Some("camera"));
+    assert_eq!(frames.headers().unwrap().iter().next_back(), Some("camera"));
     let mut last: Option<[f64; 2]> = None;
     for row in frames.records().map(Result::unwrap).take(400) {
         let [began_ms, shown_ms, camera] = [3, 5, 12].map(|at| row[at].parse::<f64>().unwrap());

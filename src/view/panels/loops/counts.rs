@@ -113,7 +113,7 @@ pub(super) fn layout(room: Rect, series: &[Series], palette: &PanelPalette) -> V
                 let text = if is_long { round(share, 2) } else { percent(share) };
                 let at = bar.center_top() - vec2(0.0, 1.0);
                 let number = Text::new(at, Align2::CENTER_BOTTOM, text, 11.0, series.colour);
-                numbers.push(number.strong().into());
+                numbers.push(Text { right: room.right(), ..number.strong() }.into());
             }
         }
         all.append(&mut numbers);
