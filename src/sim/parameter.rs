@@ -36,6 +36,9 @@ pub struct Parameter {
     pub range: Range,
     /// When a change takes effect on a moving body.
     pub acts: TakesEffect,
+    /// The key of a scene's list that has this number among others; `None` if a scene gives the number by itself. The
+    /// numbers of a list follow each other, and have one range.
+    pub list: Option<&'static str>,
 }
 
 impl Parameter {
@@ -47,7 +50,7 @@ impl Parameter {
         acts: TakesEffect,
     ) -> Self {
         let unit = Cow::Borrowed("");
-        Self { key, name: None, symbol: None, about, unit, default: None, range, acts }
+        Self { key, name: None, symbol: None, about, unit, default: None, range, acts, list: None }
     }
 
     /// Returns the description after the letter, such as `m, the mass`.
@@ -228,6 +231,12 @@ impl<B> ParameterOf<B> {
         self
     }
 
+    /// Makes the number part of a scene's list with this key.
+    pub const fn in_list(mut self, key: &'static str) -> Self {
+        self.parameter.list = Some(key);
+        self
+    }
+
     /// Makes the number part of the initial state, so that it acts at the start.
     pub const fn at_start(mut self) -> Self {
         self.parameter.acts = TakesEffect::AtStart;
@@ -261,6 +270,12 @@ impl<B> ParameterOf<B> {
         }
         first().1
     }
+}
+
+/// Returns the parameters in the groups of a scene's keys: the numbers of a list together, and each other by itself.
+#[cfg(feature = "lab")]
+pub fn by_key(parameters: &[Parameter]) -> impl Iterator<Item = &[Parameter]> {
+    parameters.chunk_by(|a, b| a.list.is_some() && a.list == b.list)
 }
 
 /// Writes `values`, in the order of `parameters`, into the fields of `body`. A curve uses all remaining values.
