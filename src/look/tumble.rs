@@ -24,10 +24,10 @@ const LIGHT: DVec3 = DVec3::new(0.48, -0.36, 0.8);
 const PLATE: f64 = 0.04;
 
 /// Lengths of the arrows of L and ω at the start, and half the width of the picture, in halves of the box's diagonal.
-const MOMENTUM: f64 = 1.7;
-const OMEGA: f64 = 1.35;
-const MOST: f64 = 2.2;
-const WIDE: f64 = 2.1;
+const MOMENTUM: f64 = 1.5;
+const OMEGA: f64 = 1.15;
+const MOST: f64 = 1.7;
+const WIDE: f64 = 1.8;
 
 /// The part of a face that its mark covers, along its longer and its shorter side.
 const STRIPE: [[f64; 2]; 2] = [[0.35, 0.8], [-0.8, 0.8]];
@@ -44,17 +44,10 @@ struct Turning {
 /// tick.
 pub(super) fn picture(body: &LaneBody) -> Box<dyn BodyPicture + '_> {
     let tumble: &Tumble = super::typed(body.stepper.body());
-    let (attitude, v) = (attitude(body.stepper.q()), body.stepper.v());
-    let omega = DVec3::new(v[0], v[1], v[2]);
-    let [momentum, omega] = [tumble.moments * omega, omega].map(|vector| attitude * vector);
+    let (q, v) = (body.stepper.q(), body.stepper.v());
+    let omega = Tumble::attitude_of(q) * Tumble::spin_of(v);
+    let momentum = tumble.momentum(q, v);
     Box::new(Turning { body: tumble.clone(), momentum, omega })
-}
-
-/// Returns the attitude of length 1; a blend of two near ones is the turn between them.
-fn attitude(q: &[f64]) -> DQuat {
-    let attitude = DQuat::from_xyzw(q[4], q[5], q[6], q[3]);
-    let length = attitude.length();
-    if length > 0.0 { attitude * (1.0 / length) } else { DQuat::IDENTITY }
 }
 
 fn seen(place: DVec3) -> DVec2 {
@@ -84,7 +77,7 @@ impl Turning {
 
 impl BodyPicture for Turning {
     fn draw(&self, q: &[f64], outline: &mut Outline) {
-        let (attitude, sides) = (attitude(q), self.half_sides());
+        let (attitude, sides) = (Tumble::attitude_of(q), self.half_sides());
         let place = |at: DVec3| seen(attitude * at);
         let is_seen =
             |axis: usize, side: f64| (attitude * (DVec3::AXES[axis] * side)).dot(VIEW[2]) > 0.0;
@@ -147,13 +140,13 @@ impl BodyPicture for Turning {
     }
 
     fn handles(&self, q: &[f64]) -> Vec<Handle> {
-        let tip = self.tip(attitude(q));
+        let tip = self.tip(Tumble::attitude_of(q));
         vec![Handle { at: seen(tip), radius: 0.3 * self.radius() }]
     }
 
     /// Turns the end of the longest side towards the target, the shorter way, and lets the body spin as it was moved.
     fn pull(&self, q: &mut [f64], v: &mut [f64], pull: Pull) {
-        let before = attitude(q);
+        let before = Tumble::attitude_of(q);
         let from = self.tip(before);
         let reach = from.length();
         let flat = pull.to.clamp_length_max(reach);
@@ -168,7 +161,7 @@ impl BodyPicture for Turning {
             q[3..].copy_from_slice(&[after.w, after.x, after.y, after.z]);
         }
         let velocity = pull.velocity.x * VIEW[0] + pull.velocity.y * VIEW[1];
-        let omega = attitude(q).conjugate() * (to.cross(velocity) / (reach * reach));
+        let omega = Tumble::attitude_of(q).conjugate() * (to.cross(velocity) / (reach * reach));
         v[..3].copy_from_slice(&omega.to_array());
         v[3..].fill(0.0);
     }

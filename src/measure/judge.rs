@@ -17,6 +17,7 @@ use super::modes::Modes;
 use super::pace::Pace;
 use super::run::{JudgedRun, MAX_WORK, Until, follow};
 use super::slices::{Meter, Once, block_on};
+use super::spin_finding::follow_spin;
 use super::truth::{BodyTruth, ticks};
 use super::verdict::{Comparison, Finding, LongTerm, NoTruth, NotJudged, Verdict};
 use crate::scene::{LaneSpec, Scene, Scripted};
@@ -193,6 +194,9 @@ impl Judge {
         if truth.bounces() {
             return self.by_bounces(body, pace, max_work).await;
         }
+        if truth.spins() {
+            return self.by_spin(body, pace, max_work).await;
+        }
         let found = Modes::of(truth, pace).await;
         let max_work = if found.is_ok() { max_work } else { 0 };
         let by_modes = found
@@ -274,6 +278,18 @@ impl Judge {
         };
         let verdict = self.verdict_with(body, finding, LongTerm::default());
         Verdict { evaluations: run.evaluations, seconds: run.seconds, ..verdict }
+    }
+
+    /// Returns the verdict on a body that turns in space.
+    async fn by_spin(&self, body: usize, pace: Pace, max_work: u64) -> Verdict {
+        let run = follow_spin(&self.truths[body], pace, max_work).await;
+        let finding = match (run.failure, self.not_judged(pace.tick_hz, run.is_too_much)) {
+            (Some(failure), _) => Finding::Failed { failure, by_energy: None },
+            (None, Some(why)) => Finding::NotJudged(why),
+            (None, None) => Finding::Spun(run.finding),
+        };
+        let verdict = self.verdict_with(body, finding, LongTerm::default());
+        Verdict { evaluations: run.evaluations, seconds: run.finding.seconds, ..verdict }
     }
 
     /// Returns the verdict on a body without a reference solution.

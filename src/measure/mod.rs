@@ -30,6 +30,7 @@ mod report;
 mod run;
 mod searches;
 mod slices;
+mod spin_finding;
 mod stability_map;
 mod survey;
 mod swing_curve;
@@ -56,6 +57,7 @@ pub(crate) use one_step::{one_step, orbit};
 pub use outcome::{Outcome, Severity, Sign};
 pub use report::{Criteria, MethodReport, PassedOver, Recommendation, Report, advise, try_advise};
 pub use run::MAX_WORK;
+pub use spin_finding::SpinFinding;
 pub use stability_map::{Coverage, DampingLine, MapRequest, PointStability, Region, StabilityMap};
 pub use truth::LONG_RUN;
 pub use verdict::{

@@ -26,17 +26,10 @@ pub(super) struct Spin {
 const ROUNDING: f64 = 1e-14;
 
 impl Spin {
-    /// Reads a state of seven coordinates. An attitude of another length than 1 is scaled to it, and one without a
-    /// direction counts as none.
+    /// Reads a state of seven coordinates, with its attitude [scaled](unit_attitude).
     pub(super) fn of(q: &[f64], v: &[f64]) -> Self {
-        let attitude = DQuat::from_xyzw(q[4], q[5], q[6], q[3]);
-        let square = attitude.length_squared();
-        let attitude = match square {
-            _ if (square - 1.0).abs() <= ROUNDING => attitude,
-            _ if square > 0.0 && square.is_finite() => attitude * (1.0 / square.sqrt()),
-            _ => DQuat::IDENTITY,
-        };
-        Self { turns: DVec3::new(q[0], q[1], q[2]), omega: DVec3::new(v[0], v[1], v[2]), attitude }
+        let [turns, omega] = [q, v].map(|x| DVec3::new(x[0], x[1], x[2]));
+        Self { turns, omega, attitude: unit_attitude(q) }
     }
 
     /// Writes the coordinates and the velocities, in which q′ = ½ q ⊗ ω agrees with ω.
@@ -53,6 +46,17 @@ impl Spin {
         let mut state = State { q: vec![0.0; COORDINATES], v: vec![0.0; COORDINATES] };
         self.write(&mut state.q, &mut state.v);
         state
+    }
+}
+
+/// Returns the attitude of seven coordinates, scaled to length 1 if it has another, or no turn if it has no direction.
+pub(super) fn unit_attitude(q: &[f64]) -> DQuat {
+    let attitude = DQuat::from_xyzw(q[4], q[5], q[6], q[3]);
+    let square = attitude.length_squared();
+    match square {
+        _ if (square - 1.0).abs() <= ROUNDING => attitude,
+        _ if square > 0.0 && square.is_finite() => attitude * (1.0 / square.sqrt()),
+        _ => DQuat::IDENTITY,
     }
 }
 

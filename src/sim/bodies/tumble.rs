@@ -7,7 +7,7 @@ use glam::{DQuat, DVec3};
 
 use super::euler_top;
 use super::prelude::*;
-use crate::sim::spin::{Spin, free_acceleration, pure, seen_from};
+use crate::sim::spin::{Spin, free_acceleration, pure, seen_from, unit_attitude};
 
 pub(super) fn kind() -> Kind {
     let named =
@@ -102,6 +102,37 @@ pub struct Tumble {
 }
 
 impl Tumble {
+    /// Returns ω of a state with these velocities, in the frame of the principal axes, in rad/s.
+    pub fn spin_of(v: &[f64]) -> DVec3 {
+        DVec3::new(v[0], v[1], v[2])
+    }
+
+    /// Returns the attitude of a state with these coordinates, a quaternion of length 1 from the body to the world.
+    pub fn attitude_of(q: &[f64]) -> DQuat {
+        unit_attitude(q)
+    }
+
+    /// Returns the angle between the attitudes of two states, in radians, from 0 to half a turn.
+    pub fn angle_between(a: &[f64], b: &[f64]) -> f64 {
+        let between = unit_attitude(a).conjugate() * unit_attitude(b);
+        2.0 * libm::atan2(between.xyz().length(), between.w.abs())
+    }
+
+    /// Returns the angle between two vectors, in radians; 0 if one has no direction.
+    pub fn turn_between(a: DVec3, b: DVec3) -> f64 {
+        libm::atan2(a.cross(b).length(), a.dot(b))
+    }
+
+    /// Returns L of a state with these velocities, in the frame of the principal axes, in N m s.
+    pub fn momentum_in_body(&self, v: &[f64]) -> DVec3 {
+        self.moments * Self::spin_of(v)
+    }
+
+    /// Returns L of a state in the frame of the world, in N m s.
+    pub fn momentum(&self, q: &[f64], v: &[f64]) -> DVec3 {
+        unit_attitude(q) * self.momentum_in_body(v)
+    }
+
     fn check(&mut self, values: &[f64]) -> Result<(), Fault> {
         *self = std::mem::take(self).with_parameters(values);
         let fault = |key: &'static str, what: String, remedy: &str| {
@@ -130,7 +161,7 @@ impl System for Tumble {
     /// The acceleration of the attitude is ½ q ⊗ ω′ - ¼ |ω|² q.
     #[inline]
     fn acceleration(&self, _t: f64, q: &Vec<f64>, v: &Vec<f64>, a: &mut Vec<f64>) {
-        let omega = DVec3::new(v[0], v[1], v[2]);
+        let omega = Self::spin_of(v);
         let attitude = DQuat::from_xyzw(q[4], q[5], q[6], q[3]);
         let rate = free_acceleration(self.moments, omega);
         let bend = attitude * pure(rate) * 0.5 - attitude * (0.25 * omega.length_squared());
@@ -141,8 +172,7 @@ impl System for Tumble {
         match query {
             Query::Spin(moments) => *moments = Some(self.moments),
             Query::Slope { state: State { q, v }, along, slope } => {
-                let omega = DVec3::new(v[0], v[1], v[2]);
-                let toward = DVec3::new(along.v[0], along.v[1], along.v[2]);
+                let [omega, toward] = [v, &along.v].map(|v| Self::spin_of(v));
                 let quaternion = |q: &[f64]| DQuat::from_xyzw(q[4], q[5], q[6], q[3]);
                 let (attitude, turned) = (quaternion(q), quaternion(&along.q));
                 let rate = free_acceleration(self.moments, omega);
@@ -189,8 +219,7 @@ impl Body for Tumble {
         from: &State<Vec<f64>>,
         to: &State<Vec<f64>>,
     ) -> [f64; 2] {
-        let omega = Spin::of(&from.q, &from.v).omega;
-        let fastest = (self.moments * omega).length() / self.moments.min_element();
+        let fastest = self.momentum_in_body(&from.v).length() / self.moments.min_element();
         let turned = std::f64::consts::TAU + fastest * dt.abs();
         let farthest = to.q.iter().fold(turned, |most, x| most.max(x.abs()));
         let rounding = 8.0 * f64::EPSILON;
@@ -202,8 +231,7 @@ impl Body for Tumble {
     }
 
     fn energy(&self, state: &State<Vec<f64>>) -> Option<f64> {
-        let omega = DVec3::new(state.v[0], state.v[1], state.v[2]);
-        Some(omega.dot(self.moments * omega) / 2.0)
+        Some(Self::spin_of(&state.v).dot(self.momentum_in_body(&state.v)) / 2.0)
     }
 
     fn kinetic_energy(&self, state: &State<Vec<f64>>) -> Option<f64> {

@@ -1,0 +1,247 @@
+//! Findings on a body that turns in space, beside its truth: its attitude, its energy, its flips, and whether it tips
+//! over. Near the middle axis a small error shifts the time of a flip, so that there the flips are judged.
+
+use std::fmt;
+use std::ops::ControlFlow;
+
+use super::criterion::{TOLERANCE, VISIBLE};
+use super::outcome::Outcome;
+use super::pace::Pace;
+use super::truth::{BodyTruth, FollowedBody, ticks};
+use super::verdict::RunFailure;
+use crate::run::race::StopReason;
+use crate::sim::bodies::Tumble;
+use crate::sim::number::{duration, significant};
+
+/// Half a turn, in radians: attitudes cannot be farther apart.
+const HALF_TURN: f64 = std::f64::consts::PI;
+
+/// The angle in radians by which a body leans farther from L than its truth ever does when it has tipped over: 45°.
+const TIPPED: f64 = std::f64::consts::FRAC_PI_4;
+
+/// The largest error that counts as rounding.
+const ROUNDING: f64 = 1e-9;
+
+/// The rotation of a lane beside that of the truth.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[non_exhaustive]
+pub struct SpinFinding {
+    /// The largest angle between the two attitudes, in radians, and its time in seconds.
+    pub attitude: (f64, f64),
+    /// The largest difference of the angular velocities in the frame of the body, in parts of the fastest true one.
+    pub omega: f64,
+    /// The energy at the end, in parts of the true one.
+    pub energy: f64,
+    /// The largest angle in space between the two angular momenta, in radians.
+    pub momentum_turn: f64,
+    /// The time in seconds at which the axis about which the body began to turn is 45° farther from L than it ever is
+    /// in truth.
+    pub tips_at_s: Option<f64>,
+    /// Flips of that axis, of the lane and of the truth.
+    pub flips: [u32; 2],
+    /// By how many seconds the first flip is late, and the largest delay of a flip in parts of the time between two.
+    pub late: Option<(f64, f64)>,
+    /// Length of the run in seconds.
+    pub seconds: f64,
+}
+
+impl SpinFinding {
+    /// Returns the largest error of the attitude in half turns, or of the angular velocity.
+    pub fn error(&self) -> f64 {
+        (self.attitude.0 / HALF_TURN).max(self.omega)
+    }
+
+    fn keeps_energy(&self) -> bool {
+        (self.energy - 1.0).abs() <= VISIBLE
+    }
+
+    fn looks_right(&self) -> bool {
+        let [own, truth] = self.flips;
+        let flips_alike = truth > 0
+            && own.abs_diff(truth) <= 1
+            && self.late.is_some_and(|(_, part)| part.abs() <= VISIBLE)
+            && self.keeps_energy()
+            && self.momentum_turn <= VISIBLE * HALF_TURN;
+        self.attitude.0 <= VISIBLE * HALF_TURN || flips_alike
+    }
+
+    pub(super) fn outcome(&self) -> Outcome {
+        match self.error() {
+            error if error <= ROUNDING => Outcome::Rounding,
+            error if error <= TOLERANCE => Outcome::Accurate,
+            _ if self.looks_right() => Outcome::LooksRight,
+            _ if self.energy > 1.0 + VISIBLE => Outcome::Grows,
+            _ if self.energy < 1.0 - VISIBLE => Outcome::DiesAway,
+            _ => Outcome::Bounded,
+        }
+    }
+
+    /// Adds the angle (rad) between a lane and the truth where its verdict begins, and the ratio of their energies.
+    pub(super) fn beside(self, apart: f64, energy: f64) -> Self {
+        let (own, at_s) = self.attitude;
+        Self { attitude: (own + apart, at_s), energy: self.energy * energy, ..self }
+    }
+
+    /// Returns the same finding on a run in which the judged part begins at this time (s).
+    pub(super) fn starting_at(self, starts_at_s: f64) -> Self {
+        let attitude = (self.attitude.0, self.attitude.1 + starts_at_s);
+        Self { attitude, tips_at_s: self.tips_at_s.map(|at_s| at_s + starts_at_s), ..self }
+    }
+
+    /// Returns the quantity that the words are about, its value and its unit.
+    pub(super) fn number(&self) -> (&'static str, f64, &'static str) {
+        let degrees = self.attitude.0.to_degrees();
+        match self.tips_at_s {
+            _ if self.outcome() <= Outcome::Accurate => ("attitude error", degrees, "°"),
+            Some(at_s) => ("tips over at", at_s, "s"),
+            None if !self.keeps_energy() => ("energy", self.energy, "×"),
+            None if self.flips[0] == 0 && self.flips[1] > 0 => ("flips", 0.0, ""),
+            None if let Some((late_s, _)) = self.late => ("delay of the first flip", late_s, "s"),
+            None if self.momentum_turn > VISIBLE => {
+                ("turn of L", self.momentum_turn.to_degrees(), "°")
+            }
+            None => ("attitude error", degrees, "°"),
+        }
+    }
+}
+
+impl fmt::Display for SpinFinding {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let (quantity, value, unit) = self.number();
+        let span = duration(self.seconds);
+        match quantity {
+            "tips over at" => {
+                write!(f, "tips over at {}", duration(value))?;
+                match self.keeps_energy() {
+                    true => Ok(()),
+                    false => write!(f, ", energy ×{} in {span}", significant(self.energy, 3)),
+                }
+            }
+            "energy" if value > 1.0 => {
+                write!(f, "speeds up: energy ×{} in {span}", significant(value, 3))
+            }
+            "energy" => {
+                let lost = significant(100.0 * (1.0 - value), 2);
+                write!(f, "loses {lost} % of its energy in {span}")
+            }
+            "flips" => f.write_str("never flips"),
+            "delay of the first flip" => {
+                let way = if value > 0.0 { "late" } else { "early" };
+                write!(f, "flips {way} by {}", duration(value.abs()))
+            }
+            "turn of L" => write!(f, "its L turns {}{unit} in space", significant(value, 2)),
+            _ if self.outcome() <= Outcome::Accurate => {
+                write!(f, "within {}{unit}", significant(value, 2))
+            }
+            _ => {
+                let at = duration(self.attitude.1);
+                write!(f, "off by {}{unit} at {at}", significant(value, 2))
+            }
+        }
+    }
+}
+
+/// The rotation of a run.
+#[derive(Default)]
+pub(super) struct SpinRun {
+    pub(super) finding: SpinFinding,
+    pub(super) failure: Option<RunFailure>,
+    pub(super) is_too_much: bool,
+    pub(super) evaluations: u64,
+}
+
+/// The times of the flips of an axis: the sign changes of the angular velocity about it.
+#[derive(Default)]
+struct Flips {
+    before: Option<(f64, f64)>,
+    at_s: Vec<f64>,
+}
+
+impl Flips {
+    fn add(&mut self, t: f64, spin: f64) {
+        if let Some((t0, before)) = self.before
+            && before * spin < 0.0
+        {
+            self.at_s.push(t0 + (t - t0) * before / (before - spin));
+        }
+        self.before = Some((t, spin));
+    }
+}
+
+/// Runs the body of `truth` at this pace over the horizon, with its inputs.
+pub(super) async fn follow_spin(
+    truth: &BodyTruth,
+    Pace { spec, tick_hz }: Pace,
+    max_work: u64,
+) -> SpinRun {
+    let end = ticks(truth.horizon_s, tick_hz);
+    let series = truth.series(tick_hz).await;
+    let max_work = max_work.min(truth.meter.budget_left());
+    let mut followed = truth.follow(spec.solver(), spec.substeps, tick_hz).with_max_work(max_work);
+    let mut run = SpinRun { is_too_much: series.is_too_much, ..SpinRun::default() };
+    let Some(start) = followed.body.stepper.body().downcast_ref::<Tumble>().cloned() else {
+        return run;
+    };
+    let n = followed.body.stepper.q().len();
+    let of_axis = start.momentum_in_body(followed.body.stepper.v());
+    let axis = of_axis.abs().max_position();
+    let way = of_axis[axis].signum();
+    let (mut own, mut exact) = (Flips::default(), Flips::default());
+    let (mut fastest, mut omega, mut leans) = (0.0_f64, 0.0_f64, 0.0_f64);
+    let found = &mut run.finding;
+    found.energy = 1.0;
+    let see = |body: &FollowedBody, tick: u64| {
+        let Some(state) = series.at(tick) else { return ControlFlow::Break(()) };
+        let (stepper, t) = (&*body.stepper, tick_hz.seconds(tick));
+        let Some(body) = stepper.body().downcast_ref::<Tumble>() else {
+            return ControlFlow::Break(());
+        };
+        let (q, v) = (stepper.q(), stepper.v());
+        let (true_q, true_v) = state.split_at(n);
+        let apart = Tumble::angle_between(q, true_q);
+        if apart > found.attitude.0 {
+            found.attitude = (apart, t);
+        }
+        let [spin, true_spin] = [v, true_v].map(Tumble::spin_of);
+        fastest = fastest.max(true_spin.length());
+        omega = omega.max((spin - true_spin).length());
+        let [energy, true_energy] =
+            [v, true_v].map(|v| Tumble::spin_of(v).dot(body.momentum_in_body(v)));
+        found.energy = if true_energy > 0.0 { energy / true_energy } else { 1.0 };
+        let [l, true_l] = [(q, v), (true_q, true_v)].map(|(q, v)| body.momentum(q, v));
+        found.momentum_turn = found.momentum_turn.max(Tumble::turn_between(l, true_l));
+        let lean = |v: &[f64]| {
+            let momentum = body.momentum_in_body(v);
+            libm::acos((way * momentum[axis] / momentum.length()).clamp(-1.0, 1.0))
+        };
+        leans = leans.max(lean(true_v));
+        if found.tips_at_s.is_none() && lean(v) > leans + TIPPED {
+            found.tips_at_s = Some(t);
+        }
+        own.add(t, spin[axis]);
+        exact.add(t, true_spin[axis]);
+        found.seconds = t;
+        run.evaluations = stepper.evaluations();
+        ControlFlow::Continue(())
+    };
+    let stop = truth.run_until(&mut followed, end, see).await;
+    if omega > 0.0 {
+        found.omega = omega / fastest;
+    }
+    found.flips = [&own, &exact].map(|flips| flips.at_s.len() as u32);
+    if let (Some(first), Some(last)) = (exact.at_s.first(), exact.at_s.last()) {
+        let between = match exact.at_s.len() {
+            1 => 2.0 * first,
+            n => (last - first) / (n - 1) as f64,
+        };
+        let late = |(own, exact): (&f64, &f64)| own - exact;
+        let all = || own.at_s.iter().zip(&exact.at_s).map(late);
+        let worst = all().fold(0.0, |worst: f64, late| worst.max(late.abs()));
+        found.late = all().next().map(|first| (first, worst / between));
+        // A body that flips in truth does not tip over.
+        found.tips_at_s = None;
+    }
+    run.is_too_much |= stop == StopReason::TooMuchWork;
+    run.failure = RunFailure::of(stop, followed.t());
+    run
+}
