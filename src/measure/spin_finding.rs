@@ -118,7 +118,7 @@ impl fmt::Display for SpinFinding {
                 }
             }
             "energy" if value > 1.0 => {
-                write!(f, "speeds up: energy ×{} in {span}", significant(value, 3))
+                write!(f, "energy ×{} in {span}", significant(value, 3))
             }
             "energy" => {
                 let lost = significant(100.0 * (1.0 - value), 2);
@@ -127,7 +127,7 @@ impl fmt::Display for SpinFinding {
             "flips" => f.write_str("never flips"),
             "delay of the first flip" => {
                 let way = if value > 0.0 { "late" } else { "early" };
-                write!(f, "flips {way} by {}", duration(value.abs()))
+                write!(f, "flips {way} by {} ms", significant(1e3 * value.abs(), 2))
             }
             "turn of L" => write!(f, "its L turns {}{unit} in space", significant(value, 2)),
             _ if self.outcome() <= Outcome::Accurate => {

@@ -60,12 +60,18 @@ impl Parameter {
 
     /// Returns the name of the parameter in words.
     pub fn quantity(&self) -> String {
-        if let Some(name) = self.name {
-            return name.to_owned();
-        }
-        let end = unit(&self.key).0;
-        self.key.strip_suffix(end).unwrap_or(&self.key).replace('_', " ")
+        self.name.map_or_else(|| in_words(&self.key), str::to_owned)
     }
+
+    /// Returns the name in words of the list that the parameter is in, or else of the parameter.
+    pub fn whole_quantity(&self) -> String {
+        self.list.map_or_else(|| self.quantity(), in_words)
+    }
+}
+
+/// Returns a key in words, without its unit.
+fn in_words(key: &str) -> String {
+    key.strip_suffix(unit(key).0).unwrap_or(key).replace('_', " ")
 }
 
 /// When a change of a parameter takes effect on a moving body.

@@ -264,9 +264,13 @@ fn sn_cn_dn(u: f64, m1: f64) -> [f64; 3] {
 /// The relative spread of the arguments below which the series of degree 5 or 6 is exact to rounding.
 const NEAR: f64 = 1e-3;
 
+/// Steps of an integral of Carlson's, each of which brings the arguments four times as near. More are never needed but
+/// by arguments that are not numbers.
+const MAX_DUPLICATIONS: u32 = 1000;
+
 /// Returns Carlson's R_F.
 fn carlson_f(mut x: f64, mut y: f64, mut z: f64) -> f64 {
-    loop {
+    for _ in 0..MAX_DUPLICATIONS {
         let a = (x + y + z) / 3.0;
         let [dx, dy] = [1.0 - x / a, 1.0 - y / a];
         let dz = -dx - dy;
@@ -282,11 +286,12 @@ fn carlson_f(mut x: f64, mut y: f64, mut z: f64) -> f64 {
         let l = sx * sy + sy * sz + sz * sx;
         [x, y, z] = [x, y, z].map(|x| (x + l) / 4.0);
     }
+    f64::NAN
 }
 
 /// Returns Carlson's R_C, for y > 0.
 fn carlson_c(mut x: f64, mut y: f64) -> f64 {
-    loop {
+    for _ in 0..MAX_DUPLICATIONS {
         let a = (x + 2.0 * y) / 3.0;
         let s = (y - a) / a;
         if s.abs() < NEAR {
@@ -297,12 +302,13 @@ fn carlson_c(mut x: f64, mut y: f64) -> f64 {
         let l = 2.0 * x.sqrt() * y.sqrt() + y;
         (x, y) = ((x + l) / 4.0, (y + l) / 4.0);
     }
+    f64::NAN
 }
 
 /// Returns Carlson's R_J, for p > 0.
 fn carlson_j(mut x: f64, mut y: f64, mut z: f64, mut p: f64) -> f64 {
     let (mut sum, mut part) = (0.0, 1.0);
-    loop {
+    for _ in 0..MAX_DUPLICATIONS {
         let a = (x + y + z + 2.0 * p) / 5.0;
         let [dx, dy, dz] = [x, y, z].map(|x| 1.0 - x / a);
         let dp = (-dx - dy - dz) / 2.0;
@@ -327,4 +333,5 @@ fn carlson_j(mut x: f64, mut y: f64, mut z: f64, mut p: f64) -> f64 {
         [x, y, z, p] = [x, y, z, p].map(|x| (x + l) / 4.0);
         part /= 4.0;
     }
+    f64::NAN
 }

@@ -25,7 +25,7 @@ pub(super) fn kind() -> Kind {
             named("qz", "vqz", "1"),
         ]
         .into(),
-        leading: "spin_y_rad_per_s".into(),
+        leading: "spin_x_rad_per_s".into(),
         ..Kind::checked(Tumble::default(), |mut blank, values| blank.check(values))
     }
 }
@@ -76,6 +76,7 @@ const PARAMETERS: [Of; 14] = [
         .about("along z; it is scaled to length 1"),
     Of::number("mass_kg", Range::POSITIVE, |body| &mut body.mass)
         .or(1.0)
+        .at_start()
         .about("the mass, which only the size of the drawn box depends on"),
     kick("kick_x_n_m_s", |body| &mut body.kick.x)
         .about("the angular momentum added by one kick, along x of the world"),

@@ -32,11 +32,13 @@ pub enum Family {
     Follower,
     /// Reproduces a tick of a physics engine.
     Engine,
+    /// Turns a rigid body freely in space, by its moments of inertia.
+    Gyro,
 }
 
 impl Family {
     /// Every family with its id, one lower-case word, in the order of the table.
-    pub const ALL: [(&str, Family); 8] = [
+    pub const ALL: [(&str, Family); 9] = [
         ("explicit", Family::Explicit),
         ("symplectic", Family::Symplectic),
         ("adaptive", Family::Adaptive),
@@ -45,6 +47,7 @@ impl Family {
         ("as-printed", Family::AsPrinted),
         ("follower", Family::Follower),
         ("engine", Family::Engine),
+        ("gyro", Family::Gyro),
     ];
 
     /// Returns the id of the family.
@@ -63,6 +66,7 @@ impl Family {
             Family::AsPrinted => AS_PRINTED,
             Family::Follower => FIRST_ORDER_FOLLOWER,
             Family::Engine => ENGINE,
+            Family::Gyro => GYRO,
         }
     }
 }
@@ -303,7 +307,7 @@ impl Method {
 
     /// Whether the method steps a free rotation in space and nothing else.
     pub fn is_for_spin(&self) -> bool {
-        self.only.is_some_and(|only| only.needs == Needs::Spin)
+        self.family == Family::Gyro
     }
 
     /// Returns the accepted spellings of the method, each with the id. They are the id, the name and the
@@ -514,6 +518,7 @@ pub(super) const ENGINE: Method = Method {
 
 /// A step of a free rotation in space, which reads the moments once.
 pub(super) const GYRO: Method = Method {
+    family: Family::Gyro,
     evaluations: Some(1),
     only: Some(Only {
         needs: Needs::Spin,

@@ -8,7 +8,6 @@ pub(super) const CARD: Method = Method {
     about: "keeps L in space and the energy to rounding; the phase lags",
     order: 2,
     order_with_drag: 2,
-    family: Family::Implicit,
     reversible: true,
     evaluation_cost: 4,
     source: "Hairer, Lubich & Wanner, Geometric Numerical Integration, VII.5; MuJoCo 3.7 to 3.10",

@@ -8,7 +8,7 @@ pub(super) const CARD: Method = Method {
     about: "never flips, wobbles or tips over; an engine that leaves out the gyroscopic term",
     order: 0,
     order_with_drag: 0,
-    source: "the default of Jolt and PhysX; Godot 4 (godotengine/godot#50173)",
+    source: "the default of Jolt and PhysX; Godot 4.3 (2024), godotengine/godot#50173",
     formula: &["ω′ = ω, then turn by h ω′"],
     ..GYRO
 };

@@ -8,7 +8,8 @@ pub(super) const CARD: Method = Method {
     about: "accurate at a fine tick; a fast wobble loses energy",
     order: 4,
     order_with_drag: 4,
-    source: "MuJoCo's integrator RK4",
+    evaluation_cost: 4,
+    source: "Kutta (1901), on the group of rotations: MuJoCo's integrator RK4",
     formula: &[
         "ω₁ to ω₄ of RK4 on ω̇ = −I⁻¹(ω × L), and ω′",
         "u̇ = w + ½ u × w + u × (u × w) / 12 with them, turn by u",

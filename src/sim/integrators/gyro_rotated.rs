@@ -8,6 +8,7 @@ pub(super) const CARD: Method = Method {
     about: "explicit, keeps L in space, and almost the energy; exact for a symmetric top",
     order: 1,
     order_with_drag: 1,
+    evaluation_cost: 2,
     source: "J. Jakubowski, avian#993, position form (2026)",
     formula: &[
         "k = ω × L, j = k · I⁻¹k / |k|², Ω = ω − j L",

@@ -9,6 +9,7 @@ pub(super) const CARD: Method = Method {
     about: "the ω of gyro-rotated, but an attitude that strays, so that L turns in space",
     order: 1,
     order_with_drag: 1,
+    evaluation_cost: 2,
     source: "J. Jakubowski, avian#993, velocity form (2026)",
     formula: &[
         "k = ω × L, j = k · I⁻¹k / |k|², Ω = ω − j L",

@@ -8,9 +8,8 @@ pub(super) const CARD: Method = Method {
     about: "keeps L in space, and the energy within a bound",
     order: 2,
     order_with_drag: 2,
-    family: Family::Implicit,
     reversible: true,
-    evaluation_cost: 4,
+    evaluation_cost: 6,
     source: "Simo & Wong, Unconditionally stable algorithms for rigid body dynamics (1991)",
     formula: &["I m = exp(−½h m) L, turn by h m", "L stays in space: ω′ = I⁻¹ exp(−h m) L"],
     ..GYRO

@@ -9,6 +9,7 @@ pub(super) const CARD: Method = Method {
     about: "keeps L in space; accurate, and loses or gains a little energy",
     order: 4,
     order_with_drag: 4,
+    evaluation_cost: 6,
     source: "Munthe-Kaas, Runge-Kutta methods on Lie groups (1998)",
     formula: &[
         "u̇ = w + ½ u × w + u × (u × w) / 12, w = I⁻¹ exp(−u) L",

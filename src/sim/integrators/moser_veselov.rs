@@ -8,7 +8,6 @@ pub(super) const CARD: Method = Method {
     about: "keeps L in space and the energy to rounding; the phase runs ahead",
     order: 2,
     order_with_drag: 2,
-    family: Family::Implicit,
     reversible: true,
     evaluation_cost: 4,
     source: "Moser & Veselov, Discrete versions of some classical integrable systems (1991)",

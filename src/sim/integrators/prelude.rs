@@ -3,7 +3,7 @@
 pub(super) use glam::{DQuat, DVec3};
 
 pub(super) use super::card::{
-    ADAPTIVE, AS_PRINTED, ENGINE, EXPLICIT, Engine, FIRST_ORDER_FOLLOWER, Family, FollowerQuantity,
+    ADAPTIVE, AS_PRINTED, ENGINE, EXPLICIT, Engine, FIRST_ORDER_FOLLOWER, FollowerQuantity,
     FollowerSetting, GYRO, IMPLICIT, LINEARISED, Method, Needs, Only, SECOND_ORDER_FOLLOWER,
     SYMPLECTIC, Substeps,
 };

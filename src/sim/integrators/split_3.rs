@@ -8,8 +8,8 @@ pub(super) const CARD: Method = Method {
     about: "explicit, keeps L in space and the energy within a bound; exact for every symmetric top",
     order: 2,
     order_with_drag: 2,
-    family: Family::Symplectic,
     reversible: true,
+    evaluation_cost: 2,
     source: "after Touma & Wisdom, Lie-Poisson integrators for rigid body dynamics (1994)",
     formula: &[
         "λ = 1 / I of the middle axis, a and b the others",

@@ -8,8 +8,8 @@ pub(super) const CARD: Method = Method {
     about: "explicit, keeps L in space and the energy within a bound",
     order: 2,
     order_with_drag: 2,
-    family: Family::Symplectic,
     reversible: true,
+    evaluation_cost: 3,
     source: "McLachlan, Explicit Lie-Poisson integration and the Euler equations (1993); Reich (1994)",
     formula: &[
         "turns about the axes 1, 2, 3, 2, 1",
