@@ -11,6 +11,7 @@ mod amplitude;
 mod bounce_finding;
 mod by_bounces;
 mod by_energy;
+mod by_spin;
 mod change;
 mod chase_finding;
 pub mod cloud;

@@ -255,6 +255,7 @@ impl Verdict {
         match &self.finding {
             Finding::Compared(comparison) => comparison.energy_drift_percent,
             Finding::ByEnergy(found) => found.drift_percent,
+            Finding::Spun(found) => Some(100.0 * (found.energy - 1.0)),
             _ => None,
         }
     }
@@ -280,6 +281,7 @@ impl Verdict {
         match &self.finding {
             Finding::Compared(comparison) => comparison.energy_change,
             Finding::ByEnergy(found) => Some(found.change),
+            Finding::Spun(found) => Some(found.energy - 1.0),
             _ => None,
         }
     }

@@ -3,7 +3,9 @@
 use std::fmt;
 
 use crate::run::race::{Chase, LaneBody};
-use crate::sim::bodies::{Coordinate, Truth, Tumble};
+use crate::sim::bodies::{Coordinate, Truth};
+
+mod spin;
 
 /// The scale on which a metric is plotted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -297,67 +299,10 @@ pub const METRICS: &[Metric] = &[
         about: "impacts since the start, or since the last input or placement",
         measure: |lane, _| Some(lane.stepper.bounces()?.impacts as f64),
     },
-    Metric {
-        id: "attitude_error",
-        name: "attitude error",
-        absent: "Nothing to compare: this body does not turn in space.",
-        unit: Unit::Coordinate,
-        scale: Scale::Log,
-        is_comparison: true,
-        is_of_energy: false,
-        about: "angle between the attitudes of a body that turns in space and of its truth, in radians",
-        measure: |lane, truth| {
-            let [lane, exact] = turning(lane, truth)?.map(|(_, body)| body.stepper.q());
-            if_finite(Tumble::angle_between(lane, exact))
-        },
-    },
-    Metric {
-        id: "axis_error",
-        name: "axis error",
-        absent: "Nothing to compare: this body does not turn in space.",
-        unit: Unit::Coordinate,
-        scale: Scale::Log,
-        is_comparison: true,
-        is_of_energy: false,
-        about: "angle between the directions of the angular momentum as seen from the body and from its truth, in radians",
-        measure: |lane, truth| {
-            let [lane, exact] = turning(lane, truth)?;
-            let of = |(it, body): (&Tumble, &LaneBody)| it.momentum_in_body(body.stepper.v());
-            if_finite(Tumble::turn_between(of(lane), of(exact)))
-        },
-    },
-    Metric {
-        id: "momentum_turn",
-        name: "momentum turn",
-        absent: "Nothing to compare: this body does not turn in space.",
-        unit: Unit::Coordinate,
-        scale: Scale::Linear,
-        is_comparison: true,
-        is_of_energy: false,
-        about: "angle in space by which the angular momentum has left that of the truth, which stands still, in radians",
-        measure: |lane, truth| {
-            let [lane, exact] = turning(lane, truth)?;
-            let of =
-                |(it, body): (&Tumble, &LaneBody)| it.momentum(body.stepper.q(), body.stepper.v());
-            if_finite(Tumble::turn_between(of(lane), of(exact)))
-        },
-    },
-    Metric {
-        id: "momentum_length",
-        name: "momentum length",
-        absent: "Nothing to compare: this body does not turn in space.",
-        unit: Unit::Percent,
-        scale: Scale::Linear,
-        is_comparison: true,
-        is_of_energy: false,
-        about: "length of the angular momentum above that in truth, in percent of it",
-        measure: |lane, truth| {
-            let [lane, exact] = turning(lane, truth)?;
-            let of =
-                |(it, body): (&Tumble, &LaneBody)| it.momentum_in_body(body.stepper.v()).length();
-            if_finite(100.0 * (of(lane) / of(exact) - 1.0))
-        },
-    },
+    spin::ATTITUDE_ERROR,
+    spin::AXIS_ERROR,
+    spin::MOMENTUM_TURN,
+    spin::MOMENTUM_LENGTH,
 ];
 
 /// Returns the energy of a body in a lane above that in truth, in percent of the energy that the exact motion
@@ -385,14 +330,6 @@ pub fn energy_j(body: &LaneBody) -> Option<f64> {
     let parts = || Some(stepper.mechanical_energy()?.iter().sum());
     let energy = stepper.energy().or_else(parts).filter(|_| body.halted().is_none());
     energy.and_then(if_finite)
-}
-
-/// Returns the body in a lane and the body in truth, both of which turn in space; `None` for other bodies, and once one
-/// of them has halted.
-fn turning<'a>(lane: &'a LaneBody, truth: &'a LaneBody) -> Option<[(&'a Tumble, &'a LaneBody); 2]> {
-    let [lane, exact] = unless_halted(lane, truth)?;
-    let tumble = |body: &'a LaneBody| Some((body.stepper.body().downcast_ref::<Tumble>()?, body));
-    Some([tumble(lane)?, tumble(exact)?])
 }
 
 /// Returns the body in a lane and the body in truth; `None` once one of them has halted.

@@ -188,8 +188,7 @@ pub trait Body: System<Vector: Vector> + Clone + Send + 'static {
         0.0
     }
 
-    /// Makes a state that somebody has set agree with itself, where two coordinates tell of one thing. Changes no bit of
-    /// a state that does.
+    /// Makes the numbers of a new state agree, where some follow from others. Changes no bit where they do.
     fn settle(&self, _state: &mut StateOf<Self>) {}
 
     /// Applies an input to the body or its state at once. Returns whether this kind of body accepts it.

@@ -68,9 +68,10 @@ fn a_body_is_declared_linear_exactly_if_its_forces_add_up() {
 
 #[test]
 fn only_conservative_bodies_have_an_energy() {
-    for (damping, conserving) in
-        [(0.0, &["ship", "spring", "chain", "pendulum", "orbit"][..]), (1e-6, &["orbit"])]
-    {
+    for (damping, conserving) in [
+        (0.0, &["ship", "spring", "chain", "pendulum", "orbit", "tumble"][..]),
+        (1e-6, &["orbit", "tumble"]),
+    ] {
         for (id, body) in bodies(Solver::Truth, damping) {
             assert_eq!(body.energy().is_some(), conserving.contains(&id), "{id}, {damping}");
             assert_eq!(body.kinetic_energy().is_some(), body.energy().is_some(), "{id}");

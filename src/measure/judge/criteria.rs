@@ -4,12 +4,13 @@ use super::{Judge, without_truth};
 use crate::measure::bounce_finding::BounceFinding;
 use crate::measure::by_bounces::follow_bounces;
 use crate::measure::by_energy::follow_energy;
+use crate::measure::by_spin::follow_spin;
 use crate::measure::change::bounded;
 use crate::measure::criterion::{Criterion, FREQUENCY_TOLERANCE, TOLERANCE, VISIBLE};
 use crate::measure::modes::{Modes, TooMuch};
 use crate::measure::pace::Pace;
 use crate::measure::run::{JudgedRun, Until, follow};
-use crate::measure::spin_finding::{SpinFinding, follow_spin};
+use crate::measure::spin_finding::SpinFinding;
 use crate::measure::truth::BodyTruth;
 
 /// Whether a lane meets a [`Criterion`].

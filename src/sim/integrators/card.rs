@@ -104,8 +104,8 @@ pub(super) const NO_FREE_SPIN: &str =
     "it has no step of a free rotation: it works in the plane, or no log shows one";
 
 impl Only {
-    /// Returns the reason why a method with this restriction and without a free spin steps no body of this class; `None`
-    /// if it may step one.
+    /// Returns the reason why a method with this restriction and without a free spin steps no body of this class.
+    /// `None` if it may step one.
     const fn incompatibility(&self, class: BodyClass) -> Option<&'static str> {
         match (self.needs, class) {
             (Needs::Law { .. }, BodyClass::Follower(_))
