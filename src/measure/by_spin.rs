@@ -2,7 +2,6 @@
 
 use std::ops::ControlFlow;
 
-use super::criterion::TOLERANCE;
 use super::pace::Pace;
 use super::spin_finding::SpinFinding;
 use super::truth::{BodyTruth, FollowedBody, ticks};
@@ -10,8 +9,10 @@ use super::verdict::RunFailure;
 use crate::run::race::StopReason;
 use crate::sim::bodies::Tumble;
 
-/// The angle in radians between its axis and L at which a body has tipped over, unless it leans so far in truth: 45°.
+/// The angle in radians between its axis and L above which a body has tipped over, 45°, and the largest true angle times
+/// this factor, if that is more.
 const TIPPED: f64 = std::f64::consts::FRAC_PI_4;
+const FARTHER: f64 = 1.5;
 
 /// The rotation of a run.
 #[derive(Default)]
@@ -64,7 +65,7 @@ pub(super) async fn follow_spin(
         libm::acos((way * momentum[axis] / momentum.length()).clamp(-1.0, 1.0))
     };
     let leans = (1..=end).filter_map(|tick| Some(lean(&start, &series.at(tick)?[n..])));
-    let leans = leans.fold(0.0, f64::max) + TOLERANCE * std::f64::consts::PI;
+    let tipped = TIPPED.max(FARTHER * leans.fold(0.0, f64::max));
     let (mut fastest, mut omega) = (0.0_f64, 0.0_f64);
     let found = &mut run.finding;
     found.energy = 1.0;
@@ -88,7 +89,7 @@ pub(super) async fn follow_spin(
         found.energy = if true_energy > 0.0 { energy / true_energy } else { 1.0 };
         let [l, true_l] = [(q, v), (true_q, true_v)].map(|(q, v)| body.momentum(q, v));
         found.momentum_turn = found.momentum_turn.max(Tumble::turn_between(l, true_l));
-        if found.tips_at_s.is_none() && lean(body, v) > leans.max(TIPPED) {
+        if found.tips_at_s.is_none() && lean(body, v) > tipped {
             found.tips_at_s = Some(t);
         }
         own.add(t, spin[axis]);

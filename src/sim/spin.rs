@@ -1,6 +1,6 @@
 //! A body that turns in space: its state as seven coordinates, and rotations.
 //!
-//! The coordinates are three turns γ with γ′ = ω, the angular velocity in the frame of the principal axes. The attitude q
+//! The coordinates are three turns γ with γ′ = ω, the angular velocity in the frame of the principal axes. The attitude
 //! follows as a quaternion w, x, y, z from that frame to the world. A method that does not know a rotation steps
 //! all seven by their accelerations, so that its ω is that of `ω′ = -I⁻¹(ω × Iω)` alone.
 

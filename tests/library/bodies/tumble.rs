@@ -456,7 +456,7 @@ fn verdict(scene: &str, id: &str) -> String {
 fn a_verdict_tells_whether_a_body_tips_over_flips_and_keeps_its_energy() {
     let wanted = [
         ("coin", "gyro-off", "inaccurate · its L turns 3.8° in space"),
-        ("coin", "gyro-rescaled", "grows · tips over at 0.583 s, energy ×1.96 in 5 s"),
+        ("coin", "gyro-rescaled", "grows · tips over at 0.6 s, energy ×1.96 in 5 s"),
         ("coin", "engine-rapier", "grows · tips over at 2.17 s, energy ×1.88 in 5 s"),
         ("long-box", "engine-rapier", "dies away · tips over at 2.95 s, energy ×0.259 in 5 s"),
         ("long-box", "gyro-rotated-engine", "looks right · its L turns 8.2° in space"),
