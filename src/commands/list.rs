@@ -163,8 +163,7 @@ fn bodies_with_keys() -> String {
 /// Explains in two lines why engines do not step bodies of this class, and which engine methods do.
 fn refused_by_engines(class: BodyClass) -> Option<String> {
     let why = class.engine_refusal()?;
-    let steps =
-        |method: &&Method| method.only.is_some_and(|only| only.incompatibility(class).is_none());
+    let steps = |method: &&Method| method.incompatibility(class).is_none();
     let engines = METHODS.iter().filter(|method| method.is_engine());
     let others: Vec<&str> = engines.filter(steps).map(|method| method.id).collect();
     let except = match &others[..] {

@@ -10,6 +10,7 @@ use crate::scene::{Mark, Outline};
 use crate::sim::Vector;
 use crate::sim::bodies::{
     Ball, Body, Chain, Custom, Follow, Helm, Kind, Law, Net, Orbit, Origin, Pendulum, Ship, Spring,
+    Tumble,
 };
 
 mod ball;
@@ -27,6 +28,7 @@ pub mod palette;
 mod pendulum;
 mod ship;
 mod spring;
+mod tumble;
 
 pub use density::density_picture;
 
@@ -133,6 +135,7 @@ static LOOKS: &[LookCard] = &[
     LookCard::plain::<Helm>("helm"),
     LookCard::plain::<Follow>("follow"),
     LookCard::plain::<Ball>("ball"),
+    LookCard::of::<Tumble>("tumble", tumble::picture),
 ];
 
 /// The looks of kinds outside the table of built-in kinds.
@@ -258,7 +261,7 @@ mod tests {
 
     /// Returns a lane of the kind's built-in scene, stepped by the truth.
     fn lane(kind: &Kind) -> Lane {
-        Lane::new(&Scene::built_in(kind.id).expect("a scene for each kind"), Solver::Truth, 1)
+        Lane::new(&Scene::with_kind(kind.id), Solver::Truth, 1)
     }
 
     #[test]

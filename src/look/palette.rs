@@ -324,6 +324,9 @@ static STYLES: LazyLock<Vec<(usize, usize)>> = LazyLock::new(|| {
     let colours = DARK.methods.len();
     let first = (0..colours * FIRST_DASHES).map(|n| (n % colours, n % FIRST_DASHES));
     let more = (FIRST_DASHES..DASHES.len()).flat_map(|dash| (0..colours).map(move |n| (n, dash)));
+    // The methods of a free spin have the styles of others, which they seldom meet.
+    let mut of_spins: Vec<(usize, usize)> =
+        first.clone().filter(|style| style.0 != EULER).collect();
     let mut free: Vec<(usize, usize)> = first.chain(more).collect();
     let of_engines = (0..colours * ENGINE_DASHES.len())
         .map(|n| (n % colours, ENGINE_DASHES[n % ENGINE_DASHES.len()]));
@@ -339,7 +342,11 @@ static STYLES: LazyLock<Vec<(usize, usize)>> = LazyLock::new(|| {
             beside.iter().flatten().all(|other| !are_alike(other.0, style.0))
         };
         let style = classic(method).unwrap_or_else(|| {
-            let free = if method.is_engine() { &mut of_engines } else { &mut free };
+            let free = match method.is_engine() {
+                true => &mut of_engines,
+                false if method.is_for_spin() => &mut of_spins,
+                false => &mut free,
+            };
             let index = free.iter().position(differs).unwrap_or(0);
             free.remove(index)
         });

@@ -399,7 +399,7 @@ impl Adviser {
         Some((FACTORS[held], self.stiffness_name(culprit.unwrap_or(0))))
     }
 
-    /// Returns each body's index, with the index of the body's leading parameter.
+    /// Returns each body's index, with the index of the body's leading parameter, or of the first number of its list.
     fn stiff_bodies(&self) -> impl Iterator<Item = (usize, usize)> {
         self.scene.bodies.iter().enumerate().filter_map(|(body, of)| {
             let (leads, _) = of.kind.parameter(&of.kind.leading)?;
@@ -412,7 +412,7 @@ impl Adviser {
         let body = &self.scene.bodies[body];
         let (_, leading) =
             body.kind.parameter(&body.kind.leading).expect("a card leads by a key of its own");
-        let quantity = leading.quantity();
+        let quantity = leading.whole_quantity();
         match self.scene.bodies.len() {
             1 => quantity,
             _ => format!("{quantity} ({})", body.name),
@@ -442,8 +442,13 @@ impl Adviser {
         let mut scene = self.scene.clone();
         for (body, leads) in self.stiff_bodies() {
             let body = &mut scene.bodies[body];
-            let stiffer = body.values[leads] * factor;
-            body.values = edited_values(&body.kind, &body.values, leads, stiffer).ok()?;
+            let list = body.kind.parameters[leads].list;
+            let others = body.kind.parameters[leads..].iter();
+            let count = others.take_while(|it| list.is_some() && it.list == list).count();
+            for index in leads..leads + count.max(1) {
+                let stiffer = body.values[index] * factor;
+                body.values = edited_values(&body.kind, &body.values, index, stiffer).ok()?;
+            }
         }
         Some(scene)
     }

@@ -10,6 +10,7 @@ use std::sync::Arc;
 use super::amplitude::Trend;
 use super::by_bounces::follow_bounces;
 use super::by_energy::{EnergyRun, follow_energy};
+use super::by_spin::follow_spin;
 use super::change::MotionChange;
 use super::chase_finding::ChaseFinding;
 use super::criterion::TOLERANCE;
@@ -193,6 +194,9 @@ impl Judge {
         if truth.bounces() {
             return self.by_bounces(body, pace, max_work).await;
         }
+        if truth.spins() {
+            return self.by_spin(body, pace, max_work).await;
+        }
         let found = Modes::of(truth, pace).await;
         let max_work = if found.is_ok() { max_work } else { 0 };
         let by_modes = found
@@ -274,6 +278,18 @@ impl Judge {
         };
         let verdict = self.verdict_with(body, finding, LongTerm::default());
         Verdict { evaluations: run.evaluations, seconds: run.seconds, ..verdict }
+    }
+
+    /// Returns the verdict on a body that turns in space.
+    async fn by_spin(&self, body: usize, pace: Pace, max_work: u64) -> Verdict {
+        let run = follow_spin(&self.truths[body], pace, max_work).await;
+        let finding = match (run.failure, self.not_judged(pace.tick_hz, run.is_too_much)) {
+            (Some(failure), _) => Finding::Failed { failure, by_energy: None },
+            (None, Some(why)) => Finding::NotJudged(why),
+            (None, None) => Finding::Spun(run.finding),
+        };
+        let verdict = self.verdict_with(body, finding, LongTerm::default());
+        Verdict { evaluations: run.evaluations, seconds: run.finding.seconds, ..verdict }
     }
 
     /// Returns the verdict on a body without a reference solution.

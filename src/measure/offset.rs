@@ -8,6 +8,7 @@ use super::criterion::{FREQUENCY_TOLERANCE, TOLERANCE, VISIBLE};
 use super::judge::Judge;
 use super::truth::{BodyTruth, ticks};
 use super::verdict::{Comparison, Finding, SwingWidths, Verdict};
+use crate::sim::bodies::Tumble;
 use crate::sim::{Solver, TickRate};
 
 impl Verdict {
@@ -25,6 +26,13 @@ impl Verdict {
                     let offset = |after| Some(height(0, after)? / height(1, after)? - 1.0);
                     let offsets = [0, 1].map(|after| offset(after).filter(|it| it.is_finite()));
                     Finding::Bounced(found.beside(offsets))
+                }
+                Finding::Spun(found) => {
+                    let [own, truth] = truths.map(|truth| truth.start(Solver::Truth));
+                    let energy = own.energy().zip(truth.energy());
+                    let ratio =
+                        energy.filter(|it| it.1 > 0.0).map_or(1.0, |(own, truth)| own / truth);
+                    Finding::Spun(found.beside(Tumble::angle_between(own.q(), truth.q()), ratio))
                 }
                 finding => finding,
             };

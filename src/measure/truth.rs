@@ -9,7 +9,7 @@ use crate::scene::{Action, SceneBody, Scripted};
 use crate::sim::bodies::{Coordinates, Input, Origin, Truth};
 use crate::sim::integrators::{GENERAL_METHODS, Override, StepFailure};
 use crate::sim::stability::{NormalMode, normal_modes};
-use crate::sim::{Solver, Stepper};
+use crate::sim::{BodyClass, Solver, Stepper};
 
 mod followed_body;
 mod reach;
@@ -172,6 +172,11 @@ impl BodyTruth {
     /// Whether the body is judged by its bounces, up to a first input.
     pub(super) fn bounces(&self) -> bool {
         self.body.kind.has_walls && self.failure.is_none()
+    }
+
+    /// Whether the body is judged by its rotation in space.
+    pub(super) fn spins(&self) -> bool {
+        self.body.kind.class == BodyClass::Spin && self.failure.is_none()
     }
 
     pub(super) fn coordinates(&self) -> Coordinates {

@@ -6,6 +6,7 @@ use super::chase_finding::ChaseFinding;
 use super::criterion::TOLERANCE;
 use super::energy_finding::EnergyFinding;
 use super::outcome::Outcome;
+use super::spin_finding::SpinFinding;
 use crate::run::race::StopReason;
 use crate::sim::bodies::Truth;
 use crate::sim::integrators::StepFailure;
@@ -79,6 +80,8 @@ pub enum Finding {
     Compared(Comparison),
     /// The bounces of a body with walls.
     Bounced(BounceFinding),
+    /// The rotation of a body that turns in space.
+    Spun(SpinFinding),
     /// Findings from the energy, because a reference solution would take too much work.
     ByEnergy(EnergyFinding),
     /// The run ended early.
@@ -208,6 +211,7 @@ impl Verdict {
         match &self.finding {
             Finding::Compared(comparison) => comparison.outcome(),
             Finding::Bounced(found) => found.outcome(),
+            Finding::Spun(found) => found.outcome(),
             Finding::ByEnergy(found) => found.outcome(),
             Finding::Failed { failure, .. } => failure.outcome(),
             Finding::NoTruth(_) => Outcome::NoTruth,
@@ -225,6 +229,7 @@ impl Verdict {
     pub fn error(&self) -> Option<f64> {
         match &self.finding {
             Finding::Bounced(found) => Some(found.error()),
+            Finding::Spun(found) => Some(found.error()),
             _ => self.comparison().map(|comparison| comparison.error),
         }
     }
@@ -250,6 +255,7 @@ impl Verdict {
         match &self.finding {
             Finding::Compared(comparison) => comparison.energy_drift_percent,
             Finding::ByEnergy(found) => found.drift_percent,
+            Finding::Spun(found) => Some(100.0 * (found.energy - 1.0)),
             _ => None,
         }
     }
@@ -275,6 +281,7 @@ impl Verdict {
         match &self.finding {
             Finding::Compared(comparison) => comparison.energy_change,
             Finding::ByEnergy(found) => Some(found.change),
+            Finding::Spun(found) => Some(found.energy - 1.0),
             _ => None,
         }
     }

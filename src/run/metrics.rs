@@ -5,6 +5,8 @@ use std::fmt;
 use crate::run::race::{Chase, LaneBody};
 use crate::sim::bodies::{Coordinate, Truth};
 
+mod spin;
+
 /// The scale on which a metric is plotted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Scale {
@@ -297,6 +299,10 @@ pub const METRICS: &[Metric] = &[
         about: "impacts since the start, or since the last input or placement",
         measure: |lane, _| Some(lane.stepper.bounces()?.impacts as f64),
     },
+    spin::ATTITUDE_ERROR,
+    spin::AXIS_ERROR,
+    spin::MOMENTUM_TURN,
+    spin::MOMENTUM_LENGTH,
 ];
 
 /// Returns the energy of a body in a lane above that in truth, in percent of the energy that the exact motion

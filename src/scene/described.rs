@@ -11,7 +11,7 @@ use super::table::Table;
 use super::wanted::{Field, Wanted};
 use super::{LaneSpec, MAX_BODIES, MAX_NAME_CHARS, SceneBody};
 use crate::sim::bodies::{
-    BODIES, ClaimHorizon, Kind, Net, Parameter, Range, incompatibility, kind,
+    BODIES, ClaimHorizon, Kind, Net, Parameter, Range, by_key, incompatibility, kind,
 };
 use crate::sim::integrators::{METHODS, Method};
 
@@ -69,15 +69,21 @@ pub(super) fn read_bodies(top: &mut Table<'_>, horizon: ClaimHorizon) -> Vec<Bod
     bodies
 }
 
-/// Returns the key of a parameter.
-pub(super) fn field_of(parameter: &'static Parameter) -> Field {
-    let Parameter { key, about, default, range, .. } = parameter;
-    Field { key, is_required: default.is_none(), about, wanted: Wanted::of(*range) }
+/// Returns the key of a parameter, or of a list of several.
+pub(super) fn field_of(group: &'static [Parameter]) -> Field {
+    let Parameter { key, about, default, range, list, .. } = &group[0];
+    let wanted = if list.is_some() { Wanted::Numbers(group.len()) } else { Wanted::of(*range) };
+    Field { key: list.unwrap_or(key), is_required: default.is_none(), about, wanted }
 }
 
 fn read_values(parameters: &'static [Parameter], row: &mut Table<'_>) -> Option<Vec<f64>> {
-    let read = |parameter: &'static Parameter| {
-        let (field, Parameter { default, range, .. }) = (field_of(parameter), parameter);
+    let read = |group: &'static [Parameter]| {
+        let Parameter { default, range, list, .. } = &group[0];
+        let field = field_of(group);
+        if list.is_some() {
+            let defaults = || group.iter().map(|parameter| parameter.default).collect();
+            return row.numbers(&field, *range).or_else(defaults);
+        }
         let given = match range {
             Range::Curve { .. } => row.curve(&field).map(|points| points.concat()),
             Range::Count(_) => row.whole::<u32>(&field).map(|count| vec![f64::from(count)]),
@@ -86,7 +92,7 @@ fn read_values(parameters: &'static [Parameter], row: &mut Table<'_>) -> Option<
         given.or(default.map(|number| vec![number]))
     };
     // All values are read before a missing one ends the body, so that every fault is found.
-    let values: Vec<_> = parameters.iter().map(read).collect();
+    let values: Vec<_> = by_key(parameters).map(read).collect();
     Some(values.into_iter().collect::<Option<Vec<_>>>()?.concat())
 }
 

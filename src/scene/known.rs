@@ -10,7 +10,7 @@ use super::script::{
     AT_S, CHECK, CHECKS, COMMAND, COMMAND_KEYS, LANE as LANE_NUMBER, OF_A_BODY, TICK,
 };
 use super::wanted::Field;
-use crate::sim::bodies::Net;
+use crate::sim::bodies::{Net, by_key};
 
 /// A key of a scene file.
 #[derive(Clone, Debug)]
@@ -31,7 +31,7 @@ pub fn scene_tables() -> Vec<(String, Vec<SceneKey>)> {
     let array = |name: &str| format!("[[{name}]]");
     let [set, place, push] = OF_A_BODY.map(|(name, keys)| (format!("`{name}`"), keys.to_vec()));
     let of_commands = COMMAND_KEYS.iter().map(|command| command.field.clone());
-    let of_nets = Net::descriptions().iter().map(field_of).collect();
+    let of_nets = by_key(Net::descriptions()).map(field_of).collect();
     let of_nets =
         [vec![NAME], fields(&GRID_KEYS), fields(&LIST_KEYS), vec![KICKED], of_nets].concat();
     let tables = [

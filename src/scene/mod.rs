@@ -296,6 +296,13 @@ impl Scene {
         Some(READ[index].get_or_init(read).clone())
     }
 
+    /// Returns the first built-in scene whose first body is of this kind.
+    #[cfg(test)]
+    pub(crate) fn with_kind(kind: &str) -> Scene {
+        let mut scenes = SCENES.iter().filter_map(|scene| Scene::built_in(scene.name));
+        scenes.find(|scene| scene.bodies[0].kind.id == kind).expect("a scene for each kind")
+    }
+
     /// Returns the harbour with a second spring, for tests on several springs.
     #[cfg(test)]
     pub(crate) fn with_two_springs() -> Scene {
@@ -365,6 +372,6 @@ pub static SCENES: &[BuiltIn] = scenes! {
     StartHere: "harbour" "spring" "ship" "damped" "pendulum" "two-springs";
     Chapter: "stiff" "surge" "chain" "helm";
     Engines: "alike" "engines" "held-force" "stiff-in-engines";
-    More: "liouville" "kicked-rotor" "orbit" "follow" "lerp" "duffing" "quarter-car" "bouncing-bungee" "lift" "jump" "ball" "perpetual" "pong" "landing" "rope"
+    More: "liouville" "kicked-rotor" "orbit" "follow" "lerp" "duffing" "quarter-car" "bouncing-bungee" "lift" "jump" "ball" "perpetual" "pong" "landing" "coin" "t-handle" "phone" "long-box" "gyro" "rope"
         "cloth" "bridge";
 };

@@ -71,6 +71,33 @@ pub enum Mark {
         /// The other end of the line.
         to: DVec2,
     },
+    /// A face of a solid, which is towards the viewer.
+    Face {
+        /// The corners, in order around the face.
+        corners: [DVec2; 4],
+        /// How much light falls on the face, from -1 to 1.
+        light: f64,
+        /// Whether it is a mark on a face, by which half a turn is seen.
+        is_mark: bool,
+    },
+    /// An edge of a solid.
+    Edge {
+        /// One end of the edge.
+        from: DVec2,
+        /// The other end of the edge.
+        to: DVec2,
+        /// Whether the solid hides the edge.
+        is_hidden: bool,
+    },
+    /// A vector.
+    Arrow {
+        /// The origin.
+        from: DVec2,
+        /// The point of the arrow.
+        to: DVec2,
+        /// Whether the vector stands still in truth.
+        is_still: bool,
+    },
     /// A block at [`Outline::at`] on a coil spring that is fixed at the left. The picture decides the sizes of both.
     Sprung,
     /// The hull of a ship at [`Outline::at`].

@@ -11,7 +11,7 @@ use super::own::own_table;
 use super::script::{CHECK, CHECKS, command_tables, parameter_value};
 use super::{Check, Scene, SceneBody};
 use crate::scene::LaneSpec;
-use crate::sim::bodies::{NetLayout, NetPlan, Range};
+use crate::sim::bodies::{NetLayout, NetPlan, Parameter, Range, by_key};
 
 impl Scene {
     /// Replaces the hashes in the checks of a scene file's `text`, in the order of the file. The rest of the text
@@ -81,13 +81,17 @@ fn body_table(body: &SceneBody) -> String {
     }
     let mut text = head;
     text.extend(kind.net().map(|plan| net_lines(plan)));
-    for (parameter, index) in kind.parameters.iter().zip(0..) {
-        let value = match parameter.range {
+    let mut rest = &values[..];
+    for group in by_key(&kind.parameters) {
+        let Parameter { key, range, list: list_key, .. } = &group[0];
+        let value = match range {
             // A curve is the last parameter, and has all remaining values.
-            Range::Curve { .. } => list(values[index..].chunks_exact(2).map(numbers)),
-            range => parameter_value(range, values[index]),
+            Range::Curve { .. } => list(rest.chunks_exact(2).map(numbers)),
+            _ if list_key.is_some() => numbers(&rest[..group.len()]),
+            range => parameter_value(*range, rest[0]),
         };
-        text += &format!("{} = {value}\n", parameter.key);
+        rest = &rest[group.len()..];
+        text += &format!("{} = {value}\n", list_key.unwrap_or(key));
     }
     text
 }

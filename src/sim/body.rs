@@ -188,6 +188,9 @@ pub trait Body: System<Vector: Vector> + Clone + Send + 'static {
         0.0
     }
 
+    /// Makes the numbers of a new state agree, where some follow from others. Changes no bit where they do.
+    fn settle(&self, _state: &mut StateOf<Self>) {}
+
     /// Applies an input to the body or its state at once. Returns whether this kind of body accepts it.
     fn input(&mut self, input: Input, state: &mut StateOf<Self>) -> bool;
 

@@ -303,22 +303,29 @@ impl Equations {
         true
     }
 
-    /// Returns the two parts ∂E/∂q·v and ∂E/∂v·a of dE/dt, in watts; their sum is 0 if energy is conserved. Returns
-    /// `None` if the law has no energy.
-    pub(super) fn power(&self, registers: &Registers, [q, v, a]: [&[f64]; 3]) -> Option<[f64; 2]> {
+    /// Returns the two parts ∂E/∂q·v and ∂E/∂v·a of dE/dt, in watts; their sum is 0 if energy is conserved. The third
+    /// number is the sum of the magnitudes of their terms, one for each coordinate. Returns `None` if the law has no
+    /// energy.
+    pub(super) fn power(&self, registers: &Registers, [q, v, a]: [&[f64]; 3]) -> Option<[f64; 3]> {
         let tape = self.energy.as_ref()?;
         let n = q.len();
         let mut slots: Vec<Jet> = registers.energy.iter().map(|&x| [x, 0.0, 0.0]).collect();
-        let mut rate = |by_velocity: bool| {
+        let mut rate = |of: Option<usize>, by_velocity: bool| {
             for i in 0..n {
-                let (moves, turns) = if by_velocity { (v[i], 0.0) } else { (0.0, a[i]) };
+                let (moves, turns) = match by_velocity {
+                    _ if of.is_some_and(|of| of != i) => (0.0, 0.0),
+                    true => (v[i], 0.0),
+                    false => (0.0, a[i]),
+                };
                 slots[FIRST_COORDINATE + i] = [q[i], moves, 0.0];
                 slots[FIRST_COORDINATE + n + i] = [v[i], turns, 0.0];
             }
             tape.evaluate_jets(&mut slots);
             tape.outputs.first().map(|&slot| slots[slot as usize][1])
         };
-        Some([rate(true)?, rate(false)?])
+        let terms = (0..n).flat_map(|i| [(i, true), (i, false)]);
+        let size = terms.map(|(i, of)| Some(rate(Some(i), of)?.abs())).sum::<Option<f64>>()?;
+        Some([rate(None, true)?, rate(None, false)?, size])
     }
 }
 

@@ -33,6 +33,7 @@ mod own_method;
 mod parameter;
 mod propagator;
 mod reference;
+mod spin;
 #[cfg(feature = "lab")]
 pub mod stability;
 mod state;

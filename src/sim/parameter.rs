@@ -36,6 +36,9 @@ pub struct Parameter {
     pub range: Range,
     /// When a change takes effect on a moving body.
     pub acts: TakesEffect,
+    /// The key of a scene's list that has this number among others; `None` if a scene gives the number by itself. The
+    /// numbers of a list follow each other, and have one range.
+    pub list: Option<&'static str>,
 }
 
 impl Parameter {
@@ -47,7 +50,7 @@ impl Parameter {
         acts: TakesEffect,
     ) -> Self {
         let unit = Cow::Borrowed("");
-        Self { key, name: None, symbol: None, about, unit, default: None, range, acts }
+        Self { key, name: None, symbol: None, about, unit, default: None, range, acts, list: None }
     }
 
     /// Returns the description after the letter, such as `m, the mass`.
@@ -57,12 +60,18 @@ impl Parameter {
 
     /// Returns the name of the parameter in words.
     pub fn quantity(&self) -> String {
-        if let Some(name) = self.name {
-            return name.to_owned();
-        }
-        let end = unit(&self.key).0;
-        self.key.strip_suffix(end).unwrap_or(&self.key).replace('_', " ")
+        self.name.map_or_else(|| in_words(&self.key), str::to_owned)
     }
+
+    /// Returns the name in words of the list that the parameter is in, or else of the parameter.
+    pub fn whole_quantity(&self) -> String {
+        self.list.map_or_else(|| self.quantity(), in_words)
+    }
+}
+
+/// Returns a key in words, without its unit.
+fn in_words(key: &str) -> String {
+    key.strip_suffix(unit(key).0).unwrap_or(key).replace('_', " ")
 }
 
 /// When a change of a parameter takes effect on a moving body.
@@ -228,6 +237,12 @@ impl<B> ParameterOf<B> {
         self
     }
 
+    /// Makes the number part of a scene's list with this key.
+    pub const fn in_list(mut self, key: &'static str) -> Self {
+        self.parameter.list = Some(key);
+        self
+    }
+
     /// Makes the number part of the initial state, so that it acts at the start.
     pub const fn at_start(mut self) -> Self {
         self.parameter.acts = TakesEffect::AtStart;
@@ -261,6 +276,12 @@ impl<B> ParameterOf<B> {
         }
         first().1
     }
+}
+
+/// Returns the parameters in the groups of a scene's keys: the numbers of a list together, and each other by itself.
+#[cfg(feature = "lab")]
+pub fn by_key(parameters: &[Parameter]) -> impl Iterator<Item = &[Parameter]> {
+    parameters.chunk_by(|a, b| a.list.is_some() && a.list == b.list)
 }
 
 /// Writes `values`, in the order of `parameters`, into the fields of `body`. A curve uses all remaining values.

@@ -163,6 +163,7 @@ impl Change<'_> {
             Change::State { q, v } => {
                 state.q.components_mut().copy_from_slice(q);
                 state.v.components_mut().copy_from_slice(v);
+                body.settle(state);
                 true
             }
             Change::Input(input) => body.input(input, state),

@@ -4,6 +4,8 @@ use std::cell::{Cell, RefCell};
 use std::ops::Deref;
 use std::rc::Rc;
 
+use glam::DVec3;
+
 use super::state::{Elementwise, State, Vector};
 
 /// An equation of motion of second order, `q″ = a(t, q, v)`.
@@ -66,6 +68,9 @@ pub enum Query<'a, V> {
     },
     /// The target that the body follows; see [`Pursuit::of`].
     Target(&'a mut Option<Pursuit<V>>),
+    /// The principal moments of inertia (kg m²) of a body that turns in space. Its coordinates are three turns about
+    /// its axes, whose velocities are ω there, and a quaternion w, x, y, z from their frame to the world.
+    Spin(&'a mut Option<DVec3>),
     /// The body as a physics engine sees it; see [`EngineSettings::of`].
     Engine {
         /// The state.
@@ -202,6 +207,8 @@ pub enum BodyClass {
     Joint,
     /// Moves by a force that an engine cannot express. The reason is a clause in lower case that follows a colon.
     NoEngine(&'static str),
+    /// Turns freely in space, which an engine steps by a map of its own.
+    Spin,
     /// Follows a target by a rule. The reason why an engine cannot express the rule is a clause in lower case that
     /// follows a colon.
     Follower(&'static str),
@@ -211,7 +218,7 @@ impl BodyClass {
     /// Returns the reason why a physics engine cannot express the body; `None` if it can.
     pub const fn engine_refusal(self) -> Option<&'static str> {
         match self {
-            Self::Forced | Self::Joint => None,
+            Self::Forced | Self::Joint | Self::Spin => None,
             Self::NoEngine(why) | Self::Follower(why) => Some(why),
         }
     }
@@ -316,6 +323,7 @@ impl<S: System<Vector: Vector>> System for Logged<S> {
                 }
                 pursuit.is_some()
             }
+            Query::Spin(_) => self.system.query(t, query),
         }
     }
 }

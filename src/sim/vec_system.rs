@@ -85,6 +85,7 @@ impl<S: System<Vector: Vector>> System for VecSystem<'_, S> {
                 });
                 return pursuit.is_some();
             }
+            Query::Spin(moments) => return self.system.query(t, Query::Spin(moments)),
         };
         if is_answered {
             to.copy_from_slice(scratch.result.components());

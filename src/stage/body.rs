@@ -4,7 +4,7 @@ use super::coil::{Span, coil, silhouette, strut};
 use super::hull::{self, ShipPose};
 use super::sketch::{Camera, LaneStyle, SOLID};
 use super::{Align, Label, Picture, captions, mass};
-use crate::look::palette::{Palette, Rgba, fade, is_bright, mix};
+use crate::look::palette::{BLACK, Palette, Rgba, WHITE, fade, is_bright, mix};
 use crate::scene::{Mark, Outline, Thread};
 
 /// Width of a net's threads in front, in points: on the border, and within it.
@@ -119,8 +119,19 @@ impl OutlineView<'_> {
                     let ends = [from, to].map(|end| camera.points(end));
                     strut(pen, ends, camera.size(radius), self.palette);
                 }
-                Mark::Disc { .. } | Mark::Block { .. } | Mark::Hull { .. } | Mark::Hatch { .. } => {
+                Mark::Face { corners, light, is_mark } => {
+                    let corners = corners.map(|corner| camera.points(corner));
+                    let face = mix(style.colour, BLACK, (0.45 - 0.4 * light) as f32);
+                    let face = if is_mark { mix(face, WHITE, 0.7) } else { face };
+                    pen.fill(&corners, face);
+                    pen.ring(&corners, 1.2, mix(face, BLACK, 0.4));
                 }
+                Mark::Disc { .. }
+                | Mark::Block { .. }
+                | Mark::Hull { .. }
+                | Mark::Hatch { .. }
+                | Mark::Edge { .. }
+                | Mark::Arrow { .. } => {}
             }
         }
         self.names(picture);
@@ -154,7 +165,10 @@ impl OutlineView<'_> {
                 | Mark::Planet { .. }
                 | Mark::Coil { .. }
                 | Mark::Rail { .. }
-                | Mark::Hatch { .. } => return None,
+                | Mark::Hatch { .. }
+                | Mark::Face { .. }
+                | Mark::Edge { .. }
+                | Mark::Arrow { .. } => return None,
             })
         })
     }
@@ -174,9 +188,31 @@ impl OutlineView<'_> {
             }
         }
         for mark in &self.outline.marks {
-            if let Mark::Hatch { from, to } = *mark {
-                let ends = [from, to].map(|end| camera.points(end));
-                pen.line(ends[0], ends[1], 1.6, self.palette.sea[1]);
+            match *mark {
+                Mark::Hatch { from, to } => {
+                    let ends = [from, to].map(|end| camera.points(end));
+                    pen.line(ends[0], ends[1], 1.6, self.palette.sea[1]);
+                }
+                Mark::Arrow { from, to, is_still } => {
+                    let colour = if is_still { self.palette.exact } else { colour };
+                    let ends = [from, to].map(|end| camera.points(end));
+                    for (width, colour) in [(5.0, fade(self.palette.sea[1], 0.6)), (2.4, colour)] {
+                        pen.path(ends, width, colour);
+                        pen.path(barbs(ends), width, colour);
+                    }
+                }
+                _ => {}
+            }
+        }
+    }
+
+    /// Draws the edges of a solid that are hidden or not, as `draw` does.
+    fn edges(&self, hidden: bool, mut draw: impl FnMut([[f32; 2]; 2])) {
+        for mark in &self.outline.marks {
+            if let Mark::Edge { from, to, is_hidden } = *mark
+                && is_hidden == hidden
+            {
+                draw([from, to].map(|end| self.camera.points(end)));
             }
         }
     }
@@ -193,6 +229,7 @@ impl OutlineView<'_> {
             let points = points.iter().map(|point| camera.points(*point));
             pen.dashed(points, 1.4, fade(style.colour, 0.7), style.dash);
         }
+        self.edges(false, |ends| pen.dashed(ends, 1.6, style.colour, short.dash));
         for part in self.parts() {
             match part {
                 MovingPart::Rod(ends) => pen.dashed(ends, 1.4, fade(style.colour, 0.7), style.dash),
@@ -223,6 +260,11 @@ impl OutlineView<'_> {
             pen.path(points.clone(), 3.6, fade(palette.sea[1], 0.6));
             pen.path(points, 1.4, fade(palette.exact, 0.8));
         }
+        self.edges(true, |ends| pen.dashed(ends, 1.1, fade(palette.exact, 0.6), [2.5, 4.0]));
+        self.edges(false, |ends| {
+            pen.path(ends, 3.6, fade(palette.sea[1], 0.6));
+            pen.path(ends, 1.5, fade(palette.exact, 0.95));
+        });
         for part in self.parts() {
             match part {
                 MovingPart::Rod(ends) => {
@@ -236,4 +278,16 @@ impl OutlineView<'_> {
             }
         }
     }
+}
+
+/// Length of an arrow's barbs, in points.
+const BARB: f32 = 9.0;
+
+/// Returns the barbs at the point of an arrow, as a line through it.
+fn barbs([from, to]: [[f32; 2]; 2]) -> [[f32; 2]; 3] {
+    let [x, y] = [to[0] - from[0], to[1] - from[1]];
+    let length = x.hypot(y).max(1.0);
+    let [x, y] = [x, y].map(|part| part / length * BARB.min(0.4 * length));
+    let barb = |side: f32| [to[0] - x - 0.5 * side * y, to[1] - y + 0.5 * side * x];
+    [barb(1.0), to, barb(-1.0)]
 }

@@ -207,8 +207,11 @@ fn printable(
 ) -> Result<StepText, NoSourceCode> {
     let refused =
         |reason: &str| NoSourceCode { method: method.id, language, reason: reason.to_owned() };
-    let MethodSource(text) = MethodSource::of(method)
-        .ok_or_else(|| refused("it is a custom method, whose code is where it was made"))?;
+    let no_lines = match method.is_for_spin() {
+        true => "it turns a body by vectors and quaternions, which its lines cannot have yet",
+        false => "it is a custom method, whose code is where it was made",
+    };
+    let MethodSource(text) = MethodSource::of(method).ok_or_else(|| refused(no_lines))?;
     let of_language = format!("refused {}", language.id());
     let claims = [&*of_language, "refused"].into_iter().find_map(|claim| text.claim(claim));
     let reason = claims.or_else(|| language.refusal(precision)).or_else(|| text.unwritable());

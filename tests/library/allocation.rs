@@ -7,7 +7,9 @@ use std::cell::Cell;
 use regatta::loops::{ENGINES, POLICIES, Pacer, RefreshRate, TimeBase};
 use regatta::run::{Observations, Race};
 use regatta::scene::{Action, Options, SCENES, Scene};
-use regatta::sim::bodies::{Follow, Grid, NetLayout, NetPlan, Pin, Ship, Spring, net_kind};
+use regatta::sim::bodies::{
+    Body as _, Follow, Grid, NetLayout, NetPlan, Pin, Ship, Spring, Tumble, net_kind,
+};
 use regatta::sim::integrators::{
     GENERAL_METHODS, ImplicitMidpoint, Integrator, METHODS, Method, Rk4, StepFailure,
     custom_integrator, integrator, method,
@@ -138,7 +140,23 @@ fn no_follower_allocates_in_hundreds_of_steps() {
 fn no_engine_allocates_in_hundreds_of_steps() {
     let first = METHODS.iter().position(Method::is_engine).expect("engines");
     let ship = Ship { drag: 1.0, mass: 2.0, thrust: 3.0, ..Ship::BLANK };
-    all_step_without_allocating(&METHODS[first..], &problem(ship), &0.0, |it, _| fresh(it));
+    let engines = METHODS[first..].iter().position(|method| !method.is_engine()).unwrap();
+    let engines = &METHODS[first..first + engines];
+    all_step_without_allocating(engines, &problem(ship), &0.0, |it, _| fresh(it));
+}
+
+#[test]
+fn no_method_of_a_free_spin_allocates_in_hundreds_of_steps() {
+    let first = METHODS.iter().position(Method::is_for_spin).expect("methods of a free spin");
+    let body = Tumble {
+        moments: [1.0, 2.0, 3.0].into(),
+        spin: [3.0, 0.5, 0.5].into(),
+        attitude: glam::DQuat::IDENTITY,
+        mass: 1.0,
+        kick: [0.0; 3].into(),
+    };
+    let like = body.start().q;
+    all_step_without_allocating(&METHODS[first..], &problem(body), &like, integrator);
 }
 
 #[test]

@@ -1,4 +1,5 @@
-//! Evaluates the formula on every method's card, and compares it with the method.
+//! Evaluates the formula on every method's card, and compares it with the method. Those of a free rotation have vectors,
+//! and are not evaluated: `bodies/tumble.rs` measures their orders.
 //!
 //! | written | meaning |
 //! |---|---|
@@ -245,7 +246,7 @@ fn holds(method: &Method, formula: &[&str]) -> bool {
 #[test]
 fn every_formula_matches_the_step_of_its_method() {
     let mut wrong = Vec::new();
-    for method in METHODS {
+    for method in METHODS.iter().filter(|method| !method.is_for_spin()) {
         let steps: Vec<Step> = judged(method, method.formula).collect();
         assert!(steps.len() > 1, "{}", method.id);
         let worst = steps.iter().map(|step| residual(method.formula, step)).fold(0.0, f64::max);
@@ -258,7 +259,7 @@ fn every_formula_matches_the_step_of_its_method() {
 
 #[test]
 fn a_step_that_ends_elsewhere_contradicts_its_formula() {
-    for method in METHODS {
+    for method in METHODS.iter().filter(|method| !method.is_for_spin()) {
         for step in judged(method, method.formula) {
             for half in 0..2 {
                 let mut step = step.clone();
@@ -283,7 +284,7 @@ fn misprints(line: &str) -> impl Iterator<Item = String> + '_ {
 #[test]
 fn every_sign_of_every_formula_matters() {
     let mut missed = Vec::new();
-    for method in METHODS {
+    for method in METHODS.iter().filter(|method| !method.is_for_spin()) {
         for (n, line) in method.formula.iter().enumerate() {
             for misprint in misprints(line) {
                 let mut formula = method.formula.to_vec();

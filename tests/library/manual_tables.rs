@@ -34,6 +34,7 @@ fn limit(method: &Method) -> String {
         (Family::Engine, _) if method.engine.is_some_and(|engine| engine.modes.is_empty()) => {
             "has no spring".into()
         }
+        (Family::Gyro, _) => "of a free rotation".into(),
         (Family::Follower, None) => "follows at any step".into(),
         (Family::Follower, Some(limit)) => format!("follows up to k h = {}", short(limit, 2)),
         (_, None) => "at any step".into(),

@@ -69,7 +69,7 @@ fn given_back(method: &Method) -> Method {
 #[test]
 fn the_printed_lines_of_every_method_step_with_its_bits() {
     let mut wrong = Vec::new();
-    for method in METHODS {
+    for method in METHODS.iter().filter(|method| !method.is_for_spin()) {
         let own = &given_back(method);
         for case in CASES.iter().filter(|case| !case.is_paused()) {
             let [found, wanted] = [own, method].map(|stepped| steps_as(stepped, method, case));

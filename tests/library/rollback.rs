@@ -2,7 +2,7 @@
 
 use std::fmt::Debug;
 
-use regatta::sim::bodies::{Follow, Spring};
+use regatta::sim::bodies::{Follow, Spring, Tumble};
 use regatta::sim::integrators::{
     Family, GENERAL_METHODS, Integrator, METHODS, Method, StepFailure, integrator, method,
     method_or_nearest,
@@ -95,6 +95,13 @@ fn a_cloned_state_and_integrator_repeat_every_bit_under_every_method() {
     };
     let followers = [target.clone(), Follow { order: 2, ..target }];
     let four = State { q: [1.0, 0.2, -0.5, 0.8], v: [0.0, 1.0, -2.0, 0.3] };
+    let top = Tumble {
+        moments: [1.0, 2.0, 3.0].into(),
+        spin: [3.0, 0.5, 0.5].into(),
+        attitude: glam::DQuat::IDENTITY,
+        mass: 1.0,
+        kick: [0.0; 3].into(),
+    };
     let many = State { q: four.q.to_vec(), v: four.v.to_vec() };
     let mut forgetful = Vec::new();
     for method in METHODS {
@@ -104,6 +111,7 @@ fn a_cloned_state_and_integrator_repeat_every_bit_under_every_method() {
             passes(&followers[1], &followers[1].start(), method),
             passes(&Pair, &four, method),
             passes(&Many, &many, method),
+            passes(&top, &top.start(), method),
         ];
         let found: Vec<[Bits; 3]> = found.into_iter().flatten().collect();
         assert!(!found.is_empty(), "no system here is for {}", method.id);

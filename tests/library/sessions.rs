@@ -40,12 +40,14 @@ fn scene(dice: &mut Dice, n: usize) -> Scene {
         "follow"
     } else if n % 20 == 15 {
         "ball"
+    } else if n % 40 == 30 {
+        "tumble"
     } else {
         kinds[n % 6]
     };
     let names = [
         "harbour", "spring", "chain", "orbit", "ship", "pendulum", "helm", "stiff", "follow",
-        "ball",
+        "ball", "coin",
     ];
     let built_in = |name: &&str| Scene::built_in(name).expect("a built-in scene");
     let all: Vec<Scene> = names.iter().map(built_in).collect();

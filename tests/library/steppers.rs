@@ -21,6 +21,11 @@ fn bodies(solver: Solver, damping: f64) -> impl Iterator<Item = (&'static str, B
             let plain = card[..card.len() - 1].iter().map(|p| p.default.unwrap_or(1.5));
             plain.chain([0.0, 2.0, 10.0, 1.0]).collect()
         }
+        "tumble" => {
+            let attitude = [0.5, 0.5, -0.5, 0.5];
+            let start = [2.5, 1.5, 3.0, 0.7, 1.3, -0.4];
+            start.into_iter().chain(attitude).chain([2.0, 0.3, -0.2, 0.6]).collect()
+        }
         "ball" => vec![2.5, 1.5, 0.8, 9.81, damping, 0.0, 3.0],
         "follow" => vec![2.0, 3.0, 1.2, 0.3, 0.4, 0.6, -0.5, 0.8, 0.3],
         id => panic!("{id} has no values here"),
@@ -63,9 +68,10 @@ fn a_body_is_declared_linear_exactly_if_its_forces_add_up() {
 
 #[test]
 fn only_conservative_bodies_have_an_energy() {
-    for (damping, conserving) in
-        [(0.0, &["ship", "spring", "chain", "pendulum", "orbit"][..]), (1e-6, &["orbit"])]
-    {
+    for (damping, conserving) in [
+        (0.0, &["ship", "spring", "chain", "pendulum", "orbit", "tumble"][..]),
+        (1e-6, &["orbit", "tumble"]),
+    ] {
         for (id, body) in bodies(Solver::Truth, damping) {
             assert_eq!(body.energy().is_some(), conserving.contains(&id), "{id}, {damping}");
             assert_eq!(body.kinetic_energy().is_some(), body.energy().is_some(), "{id}");

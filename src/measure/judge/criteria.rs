@@ -4,11 +4,13 @@ use super::{Judge, without_truth};
 use crate::measure::bounce_finding::BounceFinding;
 use crate::measure::by_bounces::follow_bounces;
 use crate::measure::by_energy::follow_energy;
+use crate::measure::by_spin::follow_spin;
 use crate::measure::change::bounded;
 use crate::measure::criterion::{Criterion, FREQUENCY_TOLERANCE, TOLERANCE, VISIBLE};
 use crate::measure::modes::{Modes, TooMuch};
 use crate::measure::pace::Pace;
 use crate::measure::run::{JudgedRun, Until, follow};
+use crate::measure::spin_finding::SpinFinding;
 use crate::measure::truth::BodyTruth;
 
 /// Whether a lane meets a [`Criterion`].
@@ -59,6 +61,10 @@ impl Judge {
                 _ if truth.bounces() => {
                     let most = criterion.outcome();
                     self.bounces_within(truth, pace, |found| found.outcome() <= most).await
+                }
+                _ if truth.spins() => {
+                    let most = criterion.outcome();
+                    self.spins_within(truth, pace, |found| found.outcome() <= most).await
                 }
                 Criterion::Bounded => self.is_bounded(truth, pace).await,
                 Criterion::LooksRight => self.looks_right(body, pace, None).await,
@@ -137,6 +143,21 @@ impl Judge {
         }
     }
 
+    /// Whether the rotation of a body is as `is_met` demands.
+    async fn spins_within(
+        &self,
+        truth: &BodyTruth,
+        pace: Pace,
+        is_met: impl Fn(&SpinFinding) -> bool,
+    ) -> Result<f64, CriterionMiss> {
+        let run = follow_spin(truth, pace, self.max_work).await;
+        match run.failure {
+            _ if run.is_too_much => Err(CriterionMiss::Unknown),
+            None if is_met(&run.finding) => Ok(run.evaluations as f64 / run.finding.seconds),
+            _ => Err(CriterionMiss::Fails),
+        }
+    }
+
     /// Whether nothing grows that does not grow in truth, over the horizon and in the long run.
     async fn is_bounded(&self, truth: &BodyTruth, pace: Pace) -> Result<f64, CriterionMiss> {
         if truth.is_too_dear() {
@@ -191,6 +212,13 @@ impl Judge {
             if truth.bounces() {
                 let within = |found: &BounceFinding| found.error() <= most;
                 if self.bounces_within(truth, pace, within).await.is_err() {
+                    return false;
+                }
+                continue;
+            }
+            if truth.spins() {
+                let within = |found: &SpinFinding| found.error() <= most;
+                if self.spins_within(truth, pace, within).await.is_err() {
                     return false;
                 }
                 continue;

@@ -74,7 +74,10 @@ impl Serialize for Verdict {
                 Finding::Failed { failure, .. } => Some(failure.cause.to_string()),
                 Finding::NoTruth(why) => Some(why.to_string()),
                 Finding::NotJudged(why) => Some(why.to_string()),
-                Finding::Compared(_) | Finding::Bounced(_) | Finding::ByEnergy(_) => None,
+                Finding::Compared(_)
+                | Finding::Bounced(_)
+                | Finding::Spun(_)
+                | Finding::ByEnergy(_) => None,
             },
             half_life_s: self.chase.and_then(|chase| chase.half_life_s),
             true_half_life_s: self.chase.and_then(|chase| chase.true_half_life_s),

@@ -106,7 +106,7 @@ impl Verdict {
     /// Returns the outcome in a word or two.
     fn word(&self) -> &'static str {
         match (self.outcome(), &self.finding) {
-            (Outcome::Bounded, Finding::Bounced(_)) => "inaccurate",
+            (Outcome::Bounded, Finding::Bounced(_) | Finding::Spun(_)) => "inaccurate",
             (Outcome::Bounded, _) if self.is_bounded().is_none() => "inaccurate",
             (Outcome::NoTruth, Finding::ByEnergy(found)) => found.word(),
             (outcome, _) => outcome.text(),
@@ -185,6 +185,11 @@ impl Verdict {
             |quantity, part, bound| VerdictNumber::part(quantity, part, format!("within {bound}"));
         match (self.outcome(), &self.finding) {
             (_, Finding::Bounced(found)) => {
+                let found = found.starting_at(self.starts_at_s);
+                let (quantity, value, unit) = found.number();
+                Some(VerdictNumber::new(quantity, value, unit, found.to_string()))
+            }
+            (_, Finding::Spun(found)) => {
                 let found = found.starting_at(self.starts_at_s);
                 let (quantity, value, unit) = found.number();
                 Some(VerdictNumber::new(quantity, value, unit, found.to_string()))

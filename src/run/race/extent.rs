@@ -1,6 +1,7 @@
 //! The range of a motion so far, which is the scale of errors in speed and energy.
 
 use crate::sim::Stepper;
+use crate::sim::bodies::Tumble;
 
 /// An exchange of energy counts as rounding if its share of the largest kinetic energy is below this.
 const ROUNDING: f64 = 1e-9;
@@ -59,6 +60,10 @@ impl Extent {
     /// not conserved or exchanged, and before the motion has reached both ends of the range. A part of the range would
     /// exaggerate the drift.
     pub(crate) fn exchanged_j(&self, truth: &dyn Stepper) -> Option<f64> {
+        // A free rotation exchanges none, so that its energy is measured against the whole.
+        if truth.body().is::<Tumble>() {
+            return truth.energy();
+        }
         let whole = truth.energy().filter(|_| truth.is_linear());
         let range = self.range_j()?;
         // A larger range is that of the motion before a kick or a placement.

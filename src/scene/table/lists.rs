@@ -103,6 +103,11 @@ impl Table<'_> {
 
     /// Reads as many numbers as [`Wanted::Numbers`] demands, each of a magnitude of at most [`MAX_COORDINATE`].
     pub(in crate::scene) fn coordinates(&mut self, field: &Field) -> Option<Vec<f64>> {
+        self.numbers(field, Range::Within(MAX_COORDINATE))
+    }
+
+    /// Reads as many numbers as [`Wanted::Numbers`] demands, each in this range.
+    pub(in crate::scene) fn numbers(&mut self, field: &Field, range: Range) -> Option<Vec<f64>> {
         let value = self.value(field)?;
         let entries = value.get_ref().as_array();
         let numbers: Option<Vec<f64>> =
@@ -116,7 +121,6 @@ impl Table<'_> {
             self.report_fault(value.span(), what, field.wanted.remedy());
             return None;
         }
-        let range = Range::Within(MAX_COORDINATE);
         let mut each = entries.iter().zip(&numbers);
         match each.find(|(_, number)| !range.contains(**number)) {
             Some((entry, _)) => {

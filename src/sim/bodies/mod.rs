@@ -14,6 +14,7 @@ mod ball;
 mod chain;
 mod claims;
 mod custom;
+mod euler_top;
 mod follow;
 mod helm;
 mod kepler;
@@ -26,6 +27,7 @@ mod pendulum;
 mod prelude;
 mod ship;
 mod spring;
+mod tumble;
 
 pub use ball::Ball;
 pub use chain::Chain;
@@ -40,6 +42,7 @@ pub use orbit::{Ellipse, Orbit};
 pub use pendulum::Pendulum;
 pub use ship::Ship;
 pub use spring::Spring;
+pub use tumble::Tumble;
 
 pub use super::body::{Body, Distances, Input, MAX_SWITCHES, NO_BOUNDARIES, Piece};
 pub use super::curve::Curve;
@@ -47,7 +50,7 @@ pub use super::net_plan::{
     Grid, Lists, MAX_NODES, MAX_SPRINGS, NetFault, NetLayout, NetPart, NetPlan, Pin, PlannedSpring,
 };
 pub use super::parameter::{
-    Fault, MAX_POINTS, MAX_VALUE, Parameter, ParameterOf, Range, TakesEffect, Text,
+    Fault, MAX_POINTS, MAX_VALUE, Parameter, ParameterOf, Range, TakesEffect, Text, by_key,
 };
 
 /// Every kind of body, in menu order.
@@ -61,6 +64,7 @@ pub static BODIES: LazyLock<Vec<Arc<Kind>>> = LazyLock::new(|| {
         helm::kind(),
         follow::kind(),
         ball::kind(),
+        tumble::kind(),
     ];
     kinds.map(Arc::new).into()
 });
@@ -80,15 +84,15 @@ pub fn incompatibility(method: &Method, kind: &Kind, values: &[f64]) -> Option<&
         parameter.is_some_and(|(index, _)| values.get(index) == Some(&f64::from(order)))
     };
     let other_law = method.law_order().is_some_and(|order| !is_of(order));
-    other_law.then_some(only.reason).or_else(|| only.incompatibility(kind.class))
+    other_law.then_some(only.reason).or_else(|| method.incompatibility(kind.class))
 }
 
 /// Lists the kinds of bodies that `method` steps, for people; `None` if it steps all kinds.
 pub fn stepped_kinds(method: &Method) -> Option<String> {
-    let only = method.only?;
+    method.only?;
     let others = [("law", Law::CLASS), ("custom", Custom::CLASS), ("net", Net::CLASS)];
     let kinds = BODIES.iter().map(|kind| (kind.id, kind.class)).chain(others);
-    let stepped = kinds.filter(|(_, class)| only.incompatibility(*class).is_none());
+    let stepped = kinds.filter(|(_, class)| method.incompatibility(*class).is_none());
     let ids = stepped.map(|(id, _)| id).collect::<Vec<_>>().join(", ");
     Some(
         method.law_order().map_or(ids.clone(), |order| format!("{ids} with {LAW_ORDER} = {order}")),

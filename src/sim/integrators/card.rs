@@ -32,11 +32,13 @@ pub enum Family {
     Follower,
     /// Reproduces a tick of a physics engine.
     Engine,
+    /// Turns a rigid body freely in space, by its moments of inertia.
+    Gyro,
 }
 
 impl Family {
     /// Every family with its id, one lower-case word, in the order of the table.
-    pub const ALL: [(&str, Family); 8] = [
+    pub const ALL: [(&str, Family); 9] = [
         ("explicit", Family::Explicit),
         ("symplectic", Family::Symplectic),
         ("adaptive", Family::Adaptive),
@@ -45,6 +47,7 @@ impl Family {
         ("as-printed", Family::AsPrinted),
         ("follower", Family::Follower),
         ("engine", Family::Engine),
+        ("gyro", Family::Gyro),
     ];
 
     /// Returns the id of the family.
@@ -63,6 +66,7 @@ impl Family {
             Family::AsPrinted => AS_PRINTED,
             Family::Follower => FIRST_ORDER_FOLLOWER,
             Family::Engine => ENGINE,
+            Family::Gyro => GYRO,
         }
     }
 }
@@ -91,18 +95,26 @@ pub enum Needs {
     Engine,
     /// A force that an engine can express without a joint.
     EngineWithoutJoint,
+    /// A free rotation in space.
+    Spin,
 }
 
+/// The reason why an engine without a [`FreeSpin`] steps no body that turns in space.
+pub(super) const NO_FREE_SPIN: &str =
+    "it has no step of a free rotation: it works in the plane, or no log shows one";
+
 impl Only {
-    /// Returns the reason why the method steps no body of this class; `None` if it may step one. The order of a law is
-    /// checked elsewhere.
-    pub const fn incompatibility(&self, class: BodyClass) -> Option<&'static str> {
+    /// Returns the reason why a method with this restriction and without a free spin steps no body of this class.
+    /// `None` if it may step one.
+    const fn incompatibility(&self, class: BodyClass) -> Option<&'static str> {
         match (self.needs, class) {
             (Needs::Law { .. }, BodyClass::Follower(_))
             | (Needs::Force, BodyClass::Forced | BodyClass::Joint | BodyClass::NoEngine(_))
             | (Needs::Engine, BodyClass::Forced | BodyClass::Joint)
-            | (Needs::EngineWithoutJoint, BodyClass::Forced) => None,
-            (Needs::Law { .. }, _) | (_, BodyClass::Joint) => Some(self.reason),
+            | (Needs::EngineWithoutJoint, BodyClass::Forced)
+            | (Needs::Spin, BodyClass::Spin) => None,
+            (Needs::Law { .. } | Needs::Spin, _) | (_, BodyClass::Joint) => Some(self.reason),
+            (_, BodyClass::Spin) => Some(NO_FREE_SPIN),
             (_, BodyClass::NoEngine(why) | BodyClass::Follower(why)) => Some(why),
         }
     }
@@ -284,6 +296,20 @@ pub struct Method {
 }
 
 impl Method {
+    /// Returns the reason why the method steps no body of this class; `None` if it may step one. The order of a law is
+    /// checked elsewhere.
+    pub const fn incompatibility(&self, class: BodyClass) -> Option<&'static str> {
+        match (&self.only, class, &self.engine) {
+            (None, ..) | (_, BodyClass::Spin, Some(Engine { free_spin: Some(_), .. })) => None,
+            (Some(only), ..) => only.incompatibility(class),
+        }
+    }
+
+    /// Whether the method steps a free rotation in space and nothing else.
+    pub fn is_for_spin(&self) -> bool {
+        self.family == Family::Gyro
+    }
+
     /// Returns the accepted spellings of the method, each with the id. They are the id, the name and the
     /// [others](Method::also).
     pub fn spellings(&'static self) -> impl Iterator<Item = (&'static str, &'static str)> {
@@ -486,6 +512,17 @@ pub(super) const ENGINE: Method = Method {
     only: Some(Only {
         needs: Needs::Engine,
         reason: "an engine takes one body's spring, its drag and the force on it, and nothing else",
+    }),
+    ..PLAIN
+};
+
+/// A step of a free rotation in space, which reads the moments once.
+pub(super) const GYRO: Method = Method {
+    family: Family::Gyro,
+    evaluations: Some(1),
+    only: Some(Only {
+        needs: Needs::Spin,
+        reason: "it turns a rigid body, so it steps only one that turns in space, such as `tumble`",
     }),
     ..PLAIN
 };

@@ -11,8 +11,9 @@
 
 use std::marker::PhantomData;
 
-use super::card::{Carded, Needs};
+use super::card::{Carded, NO_FREE_SPIN, Needs};
 use super::failure::{StepFailure, Stepped};
+use super::gyro::{moments_of, turn_state};
 use super::integrator::{Integrator, Override};
 use crate::sim::state::{State, Vector};
 use crate::sim::system::{EngineSettings, StateOf, System};
@@ -99,6 +100,14 @@ impl<V: Vector, R: EngineRule> EngineMethod<V, R> {
         substeps: u32,
         state: &mut State<V>,
     ) -> Stepped {
+        if let Some(moments) = moments_of(system, t) {
+            let free_spin = R::CARD.engine.and_then(|engine| engine.free_spin);
+            let spin = free_spin.ok_or(StepFailure::Refused { reason: NO_FREE_SPIN })?;
+            let steps = if spin.is_once_a_tick { 1 } else { substeps };
+            let h = length / f64::from(steps);
+            let turn = |omega| Ok(spin.default.turn(moments, omega, h));
+            return (0..steps).try_for_each(|_| turn_state(state, turn));
+        }
         let Self { force, carried, joint, .. } = self;
         let only = R::CARD.only.expect("an engine's card says what it steps");
         let mut settings = EngineSettings::NONE;

@@ -2,8 +2,12 @@
 //!
 //! Let `I` be the principal moments of inertia, `ω` the angular velocity in the frame of their axes, and `L = I ω` the
 //! angular momentum. Then `dL/dt = -ω × L`. Without torque, the axis of rotation changes unless it is a principal axis.
-//! None of the maps is exact. The cards name the maps and the tests compute them; all but [`SpinMap::Constant`] are
+//! None of the maps is exact. All but [`SpinMap::Constant`] are
 //! checked against logs of engines (`tests/library/engines/tumble.rs`).
+
+use glam::{DMat3, DQuat, DVec3};
+
+use crate::sim::spin::{free_acceleration, turn_by};
 
 /// One step of the angular velocity of a body without torque. `'` marks values at the end of the step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -38,6 +42,71 @@ impl SpinMap {
     pub fn id(self) -> &'static str {
         super::id_in(&Self::ALL, self)
     }
+
+    /// Returns the angular velocity after a step of `h` (s) from `omega` (rad/s), both in the frame of the principal
+    /// axes. The moments about them (kg m²) are greater than 0.
+    pub fn step(self, moments: DVec3, omega: DVec3, h: f64) -> DVec3 {
+        match self {
+            SpinMap::Constant => omega,
+            SpinMap::ScaledMomentum => {
+                let before = moments * omega;
+                let after = before - h * omega.cross(before);
+                match after.length() {
+                    // A body at rest has no direction to scale.
+                    0.0 => omega,
+                    length => after * (before.length() / length) / moments,
+                }
+            }
+            SpinMap::NewtonStep => {
+                let momentum = moments * omega;
+                let of_moments = cross_matrix(omega) * DMat3::from_diagonal(moments);
+                let change = of_moments - cross_matrix(momentum);
+                let jacobian = DMat3::from_diagonal(moments) + h * change;
+                omega - jacobian.inverse() * (h * omega.cross(momentum))
+            }
+            SpinMap::Explicit => omega + h * free_acceleration(moments, omega),
+            SpinMap::RungeKutta => {
+                let [_, k2, k3, k4] = stages(moments, omega, h);
+                let rates = [omega, k2, k3, k4].map(|omega| free_acceleration(moments, omega));
+                omega + h / 6.0 * (rates[0] + 2.0 * rates[1] + 2.0 * rates[2] + rates[3])
+            }
+        }
+    }
+
+    /// Makes the same step, and returns the turn of the body during it as well.
+    pub(super) fn turn(self, moments: DVec3, omega: DVec3, h: f64) -> (DVec3, DQuat) {
+        let after = self.step(moments, omega, h);
+        let turn = match self {
+            SpinMap::RungeKutta => {
+                let [k1, w2, w3, w4] = stages(moments, omega, h);
+                let k2 = on_group(h / 2.0 * k1, w2);
+                let k3 = on_group(h / 2.0 * k2, w3);
+                let k4 = on_group(h * k3, w4);
+                h / 6.0 * (k1 + 2.0 * k2 + 2.0 * k3 + k4)
+            }
+            _ => h * after,
+        };
+        (after, turn_by(turn))
+    }
+}
+
+/// Returns the angular velocities at the four stages of the classical Runge-Kutta method.
+fn stages(moments: DVec3, omega: DVec3, h: f64) -> [DVec3; 4] {
+    let rate = |omega| free_acceleration(moments, omega);
+    let w2 = omega + h / 2.0 * rate(omega);
+    let w3 = omega + h / 2.0 * rate(w2);
+    [omega, w2, w3, omega + h * rate(w3)]
+}
+
+/// Returns the rate of the turn by `u` of a frame that spins by `omega`, to fourth order.
+pub(super) fn on_group(u: DVec3, omega: DVec3) -> DVec3 {
+    let across = u.cross(omega);
+    omega + across / 2.0 + u.cross(across) / 12.0
+}
+
+/// Returns the matrix `[a]` with `[a] b = a × b`.
+fn cross_matrix(a: DVec3) -> DMat3 {
+    DMat3::from_cols(a.cross(DVec3::X), a.cross(DVec3::Y), a.cross(DVec3::Z))
 }
 
 /// How an engine integrates torque-free rotation.
@@ -47,4 +116,6 @@ pub struct FreeSpin {
     pub default: SpinMap,
     /// The map that a setting of the body or of the engine switches on; `None` if there is none.
     pub opt_in: Option<SpinMap>,
+    /// Whether the engine applies its map once a tick; otherwise in each substep.
+    pub is_once_a_tick: bool,
 }

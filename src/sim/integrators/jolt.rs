@@ -29,6 +29,7 @@ pub(super) const CARD: Method = Method {
         free_spin: Some(FreeSpin {
             default: SpinMap::Constant,
             opt_in: Some(SpinMap::ScaledMomentum),
+            is_once_a_tick: false,
         }),
         version: "5.5.1 main 3b47ec3",
         logged: Some("2026-11-21"),

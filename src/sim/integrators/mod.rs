@@ -21,6 +21,9 @@ mod bogacki_shampine_32;
 mod box2d;
 mod box3d;
 mod bullet;
+mod buss_2;
+mod buss_3;
+mod buss_enhanced;
 mod card;
 mod chipmunk;
 mod critically_damped_spring;
@@ -35,6 +38,15 @@ mod follower;
 mod free_spin;
 mod gauss_legendre_4;
 mod godot;
+mod gyro;
+mod gyro_explicit;
+mod gyro_midpoint;
+mod gyro_newton;
+mod gyro_off;
+mod gyro_rescaled;
+mod gyro_rk4;
+mod gyro_rotated;
+mod gyro_rotated_engine;
 mod held_force;
 mod implicit_euler;
 mod implicit_midpoint;
@@ -47,8 +59,12 @@ mod joint_mode;
 mod jolt;
 mod lerp_dt;
 mod lerp_per_frame;
+mod lie_midpoint;
+mod lie_rk4;
 mod linearly_implicit_euler;
 mod midpoint;
+mod momentum_euler;
+mod moser_veselov;
 mod mujoco;
 mod mujoco_rk4;
 mod newmark;
@@ -68,6 +84,8 @@ mod semi_implicit_euler_implicit_drag;
 mod shared;
 mod smooth_damp;
 mod spelling;
+mod split_3;
+mod split_5;
 mod ssp_rk3;
 #[cfg(feature = "lab")]
 mod step_method;
@@ -88,6 +106,7 @@ pub use engine::{EngineMethod, EngineRule, EngineTick};
 pub use failure::{StepFailure, Stepped};
 pub use follower::{Follower, FollowerRule};
 pub use free_spin::{FreeSpin, SpinMap};
+pub use gyro::{Gyro, GyroRule, Turned};
 pub use integrator::{CloneIntegrator, Integrator, Override, Tolerance};
 pub use joint_mode::{JointMode, JointQuantity, Setting, in_code};
 pub use shared::embedded_pair::{EmbeddedPair, Pair};
@@ -128,9 +147,9 @@ pub trait Construct<S: System> {
 
 /// Returns the reason why a method steps no system for which `C` constructs; `None` if it may step some.
 const fn refusal<S: System, C: Construct<S>>(card: &Method) -> Option<&'static str> {
-    match (&card.only, C::CLASS) {
-        (Some(only), Some(class)) => only.incompatibility(class),
-        _ => None,
+    match C::CLASS {
+        Some(class) => card.incompatibility(class),
+        None => None,
     }
 }
 
@@ -288,6 +307,23 @@ methods! {
     godot::Godot as EngineMethod,
     box3d::Box3d as EngineMethod,
     held_force::HeldForce as EngineMethod,
+    gyro_off::GyroOff as Gyro,
+    gyro_explicit::GyroExplicit as Gyro,
+    gyro_newton::GyroNewton as Gyro,
+    gyro_rescaled::GyroRescaled as Gyro,
+    gyro_rotated::GyroRotated as Gyro,
+    gyro_rotated_engine::GyroRotatedEngine as Gyro,
+    momentum_euler::MomentumEuler as Gyro,
+    buss_2::Buss2 as Gyro,
+    buss_enhanced::BussEnhanced as Gyro,
+    buss_3::Buss3 as Gyro,
+    gyro_midpoint::GyroMidpoint as Gyro,
+    lie_midpoint::LieMidpoint as Gyro,
+    split_3::Split3 as Gyro,
+    split_5::Split5 as Gyro,
+    moser_veselov::MoserVeselov as Gyro,
+    lie_rk4::LieRk4 as Gyro,
+    gyro_rk4::GyroRk4 as Gyro,
 }
 
 /// Returns an integrator of `method` for bodies of this class and coupling, compiled once for each vector type.
@@ -308,7 +344,7 @@ pub(in crate::sim) fn any_integrator<V: Vector>(
             Box::new(new(self.0))
         }
     }
-    match method.only.and_then(|only| only.incompatibility(class)) {
+    match method.incompatibility(class) {
         Some(reason) if !method.is_from_outside() => Box::new(Unfit { reason }),
         _ => construct(method, coupling, Boxed(like)),
     }

@@ -3,8 +3,11 @@
 use super::joint_mode::JointQuantity::{Damping, DampingPerMass, Stiffness, StiffnessPerMass};
 use super::prelude::*;
 
-pub(super) const FREE_SPIN: Option<FreeSpin> =
-    Some(FreeSpin { default: SpinMap::Constant, opt_in: Some(SpinMap::ScaledMomentum) });
+pub(super) const FREE_SPIN: Option<FreeSpin> = Some(FreeSpin {
+    default: SpinMap::Constant,
+    opt_in: Some(SpinMap::ScaledMomentum),
+    is_once_a_tick: true,
+});
 
 /// The drives of PhysX itself, under any of its solvers.
 pub(super) const DRIVES: [JointMode; 2] = [

@@ -1,15 +1,19 @@
 //! Imports for the file of a method, for its card, its traits, and its vectors.
 
+pub(super) use glam::{DQuat, DVec3};
+
 pub(super) use super::card::{
     ADAPTIVE, AS_PRINTED, ENGINE, EXPLICIT, Engine, FIRST_ORDER_FOLLOWER, FollowerQuantity,
-    FollowerSetting, IMPLICIT, LINEARISED, Method, Needs, Only, SECOND_ORDER_FOLLOWER, SYMPLECTIC,
-    Substeps,
+    FollowerSetting, GYRO, IMPLICIT, LINEARISED, Method, Needs, Only, SECOND_ORDER_FOLLOWER,
+    SYMPLECTIC, Substeps,
 };
 pub(super) use super::engine::{EngineRule, EngineTick, cap, each, part_below};
 pub(super) use super::failure::Stepped;
 pub(super) use super::follower::{FollowerRule, lerp};
 pub(super) use super::free_spin::{FreeSpin, SpinMap};
+pub(super) use super::gyro::{GyroRule, Split, Turned, fixed_point, turned};
 pub(super) use super::integrator::{Integrator, Override, Tolerance};
 pub(super) use super::joint_mode::{JointMode, mode, si_mode};
+pub(super) use crate::sim::spin::{free_acceleration, seen_from, turn_by};
 pub(super) use crate::sim::state::{Elementwise, State, Vector};
 pub(super) use crate::sim::system::{Coupling, StateOf, System};

@@ -26,7 +26,7 @@ fn step_of(studio: &Studio) -> Option<OneStep> {
 /// Returns the name of a scene that the method can step.
 fn scene_for(method: &Method) -> &'static str {
     let fits = |name: &&str| Scene::built_in(name).unwrap().refusal(method).is_none();
-    ["spring", "ship", "follow", "lerp"].into_iter().find(fits).expect("one of them")
+    ["spring", "ship", "follow", "lerp", "coin"].into_iter().find(fits).expect("one of them")
 }
 
 fn near(found: [f64; 2], wanted: [f64; 2]) -> bool {

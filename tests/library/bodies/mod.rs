@@ -12,3 +12,4 @@ mod follow;
 mod helm;
 mod orbit;
 mod reference;
+mod tumble;

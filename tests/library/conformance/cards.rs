@@ -35,7 +35,7 @@ fn every_card_has_a_description_and_a_source() {
 #[test]
 fn families_agree_with_the_other_fields() {
     for card in METHODS {
-        let is_special = [Family::Follower, Family::Engine].contains(&card.family);
+        let is_special = [Family::Follower, Family::Engine, Family::Gyro].contains(&card.family);
         assert_eq!(is_special, card.only.is_some(), "{}", card.id);
         assert_eq!(card.family == Family::Engine, card.engine.is_some(), "{}", card.id);
         let is_implicit = card.family == Family::Implicit;
@@ -59,8 +59,8 @@ fn the_method_table_is_grouped_by_family_with_engines_last() {
     families.dedup();
     let distinct: HashSet<_> = families.iter().map(|family| family.id()).collect();
     assert_eq!(families.len(), distinct.len(), "{families:?}");
-    let last = [Family::AsPrinted, Family::Follower, Family::Engine];
-    assert_eq!(families[families.len() - 3..], last);
+    let last = [Family::AsPrinted, Family::Follower, Family::Engine, Family::Gyro];
+    assert_eq!(families[families.len() - 4..], last);
     let general = METHODS.iter().filter(|card| card.only.is_none());
     assert!(GENERAL_METHODS.iter().eq(general), "those for every body come first");
 }

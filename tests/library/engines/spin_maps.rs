@@ -1,48 +1,7 @@
 //! The maps of a free spin against rigid-body mechanics.
 
-use glam::{DMat3, DVec3};
+use glam::DVec3;
 use regatta::sim::integrators::SpinMap;
-
-/// The angular velocity after a step of `h` (s) from `omega` (rad/s), both in the frame of the principal axes.
-/// `inertia` has the moments about them (kg m²), each more than 0.
-pub(super) fn step(map: SpinMap, inertia: DVec3, omega: DVec3, h: f64) -> DVec3 {
-    let rate = |omega: DVec3| -omega.cross(inertia * omega) / inertia;
-    match map {
-        SpinMap::Constant => omega,
-        SpinMap::ScaledMomentum => scaled_momentum(inertia, omega, h),
-        SpinMap::NewtonStep => newton_step(inertia, omega, h),
-        SpinMap::Explicit => omega + h * rate(omega),
-        SpinMap::RungeKutta => {
-            let k1 = rate(omega);
-            let k2 = rate(omega + h / 2.0 * k1);
-            let k3 = rate(omega + h / 2.0 * k2);
-            let k4 = rate(omega + h * k3);
-            omega + h / 6.0 * (k1 + 2.0 * k2 + 2.0 * k3 + k4)
-        }
-    }
-}
-
-fn scaled_momentum(inertia: DVec3, omega: DVec3, h: f64) -> DVec3 {
-    let before = inertia * omega;
-    let after = before - h * omega.cross(before);
-    match after.length() {
-        // A body at rest has no direction to scale.
-        0.0 => omega,
-        length => after * (before.length() / length) / inertia,
-    }
-}
-
-fn newton_step(inertia: DVec3, omega: DVec3, h: f64) -> DVec3 {
-    let momentum = inertia * omega;
-    let moments = DMat3::from_diagonal(inertia);
-    let jacobian = moments + h * (cross_matrix(omega) * moments - cross_matrix(momentum));
-    omega - jacobian.inverse() * (h * omega.cross(momentum))
-}
-
-/// The matrix `[a]` with `[a] b = a × b`.
-fn cross_matrix(a: DVec3) -> DMat3 {
-    DMat3::from_cols(a.cross(DVec3::X), a.cross(DVec3::Y), a.cross(DVec3::Z))
-}
 
 /// Three moments of inertia, in kg m².
 const INERTIA: DVec3 = DVec3::new(1.0, 2.0, 3.0);
@@ -54,7 +13,7 @@ fn momentum(inertia: DVec3, omega: DVec3) -> f64 {
 
 /// The angular velocity after `n` steps of `h`.
 fn after(map: SpinMap, inertia: DVec3, start: DVec3, h: f64, n: u32) -> DVec3 {
-    let omega = (0..n).fold(start, |omega, _| step(map, inertia, omega, h));
+    let omega = (0..n).fold(start, |omega, _| map.step(inertia, omega, h));
     assert!(omega.is_finite(), "{map:?}: {omega}");
     omega
 }
@@ -158,7 +117,7 @@ fn the_newton_step_leaves_the_quadratic_part_of_implicit_euler() {
 fn the_newton_step_is_not_finite_where_its_matrix_has_no_inverse() {
     let inertia = DVec3::new(3.0, 5.0, 8.0);
     for (omega, is_finite) in [(2.0, false), (1.9, true), (2.1, true)] {
-        let found = step(SpinMap::NewtonStep, inertia, DVec3::new(0.0, omega, 0.0), 1.0);
+        let found = SpinMap::NewtonStep.step(inertia, DVec3::new(0.0, omega, 0.0), 1.0);
         assert_eq!(found.is_finite(), is_finite, "{omega}: {found}");
     }
 }

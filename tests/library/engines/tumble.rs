@@ -6,7 +6,6 @@ use glam::DVec3;
 use regatta::sim::integrators::{FreeSpin, METHODS, SpinMap, method};
 
 use super::log::{Entry, columns, manifest};
-use super::spin_maps;
 
 /// The principal moments of inertia of the body of every log, in kg m².
 const INERTIA: DVec3 = DVec3::new(1.0, 2.0, 3.0);
@@ -36,12 +35,11 @@ fn free_spin(id: &str) -> FreeSpin {
     engine.free_spin.unwrap_or_else(|| panic!("{id} claims nothing"))
 }
 
-/// The angular velocity after a tick of `length` (s). PhysX applies its map once a tick; all others apply it, or repeat
-/// their whole step, in each substep.
+/// The angular velocity after a tick of `length` (s).
 fn spin(id: &str, map: SpinMap, omega: DVec3, length: f64, substeps: u32) -> DVec3 {
-    let steps = if id.starts_with("engine-physx") { 1 } else { substeps };
+    let steps = if free_spin(id).is_once_a_tick { 1 } else { substeps };
     let h = length / f64::from(steps);
-    (0..steps).fold(omega, |omega, _| spin_maps::step(map, INERTIA, omega, h))
+    (0..steps).fold(omega, |omega, _| map.step(INERTIA, omega, h))
 }
 
 /// A row of a log.

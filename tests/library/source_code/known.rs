@@ -140,7 +140,10 @@ pub(crate) fn steps_as(stepped: &Method, like: &Method, case: &Case) -> Vec<[f64
         .collect()
 }
 
-/// The methods of the table, each with its source.
+/// The methods of the table, each with its source. Those of a free rotation have none.
 pub(crate) fn sources() -> impl Iterator<Item = (&'static Method, MethodSource)> {
-    METHODS.iter().map(|method| (method, MethodSource::of(method).expect("a source")))
+    METHODS
+        .iter()
+        .filter(|method| !method.is_for_spin())
+        .map(|method| (method, MethodSource::of(method).expect("a source")))
 }

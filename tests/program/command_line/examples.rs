@@ -21,13 +21,13 @@ use crate::printed::texts;
 ///   its rows, in `loops.rs`; the pipe to ffmpeg is run in `formats.rs`.
 /// - `toml`: scenes are read, below; dependencies are resolved in `tests/library/ci_recipe.rs`.
 const BLOCKS: [(&str, &str, usize); 20] = [
-    ("scenes", "toml", 5),
+    ("scenes", "toml", 6),
     ("commands", "console", 6),
     ("commands", "sh", 2),
     ("commands", "text", 1),
     ("loops", "sh", 1),
     ("logs", "console", 1),
-    ("questions", "console", 17),
+    ("questions", "console", 18),
     ("code", "console", 1),
     ("step", "console", 5),
     ("library", "rust", 2),
@@ -102,7 +102,7 @@ fn every_example_with_an_answer_prints_that_answer() {
     let expected = [
         ("commands", 4),
         ("logs", 1),
-        ("questions", 22),
+        ("questions", 24),
         ("code", 1),
         ("step", 3),
         ("README", 1),

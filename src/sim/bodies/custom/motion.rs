@@ -76,7 +76,7 @@ impl<S: System<Vector: Vector>> System for Scaled<S> {
                 [stiffness, damping, drag].into_iter().for_each(|setting| *setting *= self.force);
                 is_answered
             }
-            Query::Target(_) => false,
+            Query::Target(_) | Query::Spin(_) => false,
         }
     }
 }

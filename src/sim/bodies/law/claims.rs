@@ -9,6 +9,9 @@ use crate::sim::law::{CoordinateText, Equations, LawFault, Part, Remedy};
 use crate::sim::state::State;
 use crate::sim::system::System;
 
+/// The rounding of a sum of terms, in parts of their magnitudes.
+const ROUNDING: f64 = 16.0 * f64::EPSILON;
+
 impl Claimant for Law {
     // The tolerance is for rounding, with room for terms that cancel.
     const TOLERANCE: f64 = 1e-9;
@@ -39,8 +42,11 @@ impl Claimant for Law {
     fn power(&self, t: f64, State { q, v }: &State<Vec<f64>>) -> Option<[f64; 2]> {
         let mut a = v.clone();
         self.acceleration(t, q, v, &mut a);
-        let [moved, turned] = self.equations.power(&self.registers.borrow(), [q, v, &a])?;
-        let power = [(moved + turned).abs(), moved.abs() + turned.abs()];
+        let [moved, turned, size] = self.equations.power(&self.registers.borrow(), [q, v, &a])?;
+        // A rotor exchanges nothing, but its terms cancel to rounding only.
+        let leaks = (moved + turned).abs();
+        let leaks = if leaks <= ROUNDING * size { 0.0 } else { leaks };
+        let power = [leaks, moved.abs() + turned.abs()];
         power.iter().all(|power| power.is_finite()).then_some(power)
     }
 

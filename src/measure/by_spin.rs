@@ -1,0 +1,121 @@
+//! Follows a body that turns in space beside its truth.
+
+use std::ops::ControlFlow;
+
+use super::pace::Pace;
+use super::spin_finding::SpinFinding;
+use super::truth::{BodyTruth, FollowedBody, ticks};
+use super::verdict::RunFailure;
+use crate::run::race::StopReason;
+use crate::sim::bodies::Tumble;
+
+/// The angle in radians between its axis and L above which a body has tipped over, 45°, and the largest true angle times
+/// this factor, if that is more.
+const TIPPED: f64 = std::f64::consts::FRAC_PI_4;
+const FARTHER: f64 = 1.5;
+
+/// The rotation of a run.
+#[derive(Default)]
+pub(super) struct SpinRun {
+    pub(super) finding: SpinFinding,
+    pub(super) failure: Option<RunFailure>,
+    pub(super) is_too_much: bool,
+    pub(super) evaluations: u64,
+}
+
+/// The times of the flips of an axis: the sign changes of the angular velocity about it.
+#[derive(Default)]
+struct Flips {
+    before: Option<(f64, f64)>,
+    at_s: Vec<f64>,
+}
+
+impl Flips {
+    fn add(&mut self, t: f64, spin: f64) {
+        if let Some((t0, before)) = self.before
+            && before * spin < 0.0
+        {
+            self.at_s.push(t0 + (t - t0) * before / (before - spin));
+        }
+        self.before = Some((t, spin));
+    }
+}
+
+/// Runs the body of `truth` at this pace over the horizon, with its inputs.
+pub(super) async fn follow_spin(
+    truth: &BodyTruth,
+    Pace { spec, tick_hz }: Pace,
+    max_work: u64,
+) -> SpinRun {
+    let end = ticks(truth.horizon_s, tick_hz);
+    let series = truth.series(tick_hz).await;
+    let max_work = max_work.min(truth.meter.budget_left());
+    let mut followed = truth.follow(spec.solver(), spec.substeps, tick_hz).with_max_work(max_work);
+    let mut run = SpinRun { is_too_much: series.is_too_much, ..SpinRun::default() };
+    let Some(start) = followed.body.stepper.body().downcast_ref::<Tumble>().cloned() else {
+        return run;
+    };
+    let n = followed.body.stepper.q().len();
+    let of_axis = start.momentum_in_body(followed.body.stepper.v());
+    let axis = of_axis.abs().max_position();
+    let way = of_axis[axis].signum();
+    let (mut own, mut exact) = (Flips::default(), Flips::default());
+    let lean = |body: &Tumble, v: &[f64]| {
+        let momentum = body.momentum_in_body(v);
+        libm::acos((way * momentum[axis] / momentum.length()).clamp(-1.0, 1.0))
+    };
+    let leans = (1..=end).filter_map(|tick| Some(lean(&start, &series.at(tick)?[n..])));
+    let tipped = TIPPED.max(FARTHER * leans.fold(0.0, f64::max));
+    let (mut fastest, mut omega) = (0.0_f64, 0.0_f64);
+    let found = &mut run.finding;
+    found.energy = 1.0;
+    let see = |body: &FollowedBody, tick: u64| {
+        let Some(state) = series.at(tick) else { return ControlFlow::Break(()) };
+        let (stepper, t) = (&*body.stepper, tick_hz.seconds(tick));
+        let Some(body) = stepper.body().downcast_ref::<Tumble>() else {
+            return ControlFlow::Break(());
+        };
+        let (q, v) = (stepper.q(), stepper.v());
+        let (true_q, true_v) = state.split_at(n);
+        let apart = Tumble::angle_between(q, true_q);
+        if apart > found.attitude.0 {
+            found.attitude = (apart, t);
+        }
+        let [spin, true_spin] = [v, true_v].map(Tumble::spin_of);
+        fastest = fastest.max(true_spin.length());
+        omega = omega.max((spin - true_spin).length());
+        let [energy, true_energy] =
+            [v, true_v].map(|v| Tumble::spin_of(v).dot(body.momentum_in_body(v)));
+        found.energy = if true_energy > 0.0 { energy / true_energy } else { 1.0 };
+        let [l, true_l] = [(q, v), (true_q, true_v)].map(|(q, v)| body.momentum(q, v));
+        found.momentum_turn = found.momentum_turn.max(Tumble::turn_between(l, true_l));
+        if found.tips_at_s.is_none() && lean(body, v) > tipped {
+            found.tips_at_s = Some(t);
+        }
+        own.add(t, spin[axis]);
+        exact.add(t, true_spin[axis]);
+        found.seconds = t;
+        run.evaluations = stepper.evaluations();
+        ControlFlow::Continue(())
+    };
+    let stop = truth.run_until(&mut followed, end, see).await;
+    if omega > 0.0 {
+        found.omega = omega / fastest;
+    }
+    found.flips = [&own, &exact].map(|flips| flips.at_s.len() as u32);
+    if let (Some(first), Some(last)) = (exact.at_s.first(), exact.at_s.last()) {
+        let between = match exact.at_s.len() {
+            1 => 2.0 * first,
+            n => (last - first) / (n - 1) as f64,
+        };
+        let late = |(own, exact): (&f64, &f64)| own - exact;
+        let all = || own.at_s.iter().zip(&exact.at_s).map(late);
+        let worst = all().fold(0.0, |worst: f64, late| worst.max(late.abs()));
+        found.late = all().next().map(|first| (first, worst / between));
+        // A body that flips in truth does not tip over.
+        found.tips_at_s = None;
+    }
+    run.is_too_much |= stop == StopReason::TooMuchWork;
+    run.failure = RunFailure::of(stop, followed.t());
+    run
+}
