@@ -124,7 +124,7 @@ A race of a scene keeps its hashes until its physics changes:
 //!
 //! # Out of scope
 //!
-//! Contacts among bodies, friction and rotation, which would hide the integrator behind the solver. One body on one
+//! Contacts among bodies and friction, which would hide the integrator behind the solver. One body on one
 //! given floor is in: it has no solver, and the rule of its impacts is one visible line. Generic scalars, which would
 //! bury the formulas (`commands/sweep/round_off.rs` is the exception); constraints, which a closed body with natural
 //! coordinates does not need.
