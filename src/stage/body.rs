@@ -286,7 +286,7 @@ const BARB: f32 = 9.0;
 /// Returns the barbs at the point of an arrow, as a line through it.
 fn barbs([from, to]: [[f32; 2]; 2]) -> [[f32; 2]; 3] {
     let [x, y] = [to[0] - from[0], to[1] - from[1]];
-    let length = x.hypot(y).max(1.0);
+    let length = libm::hypotf(x, y).max(1.0);
     let [x, y] = [x, y].map(|part| part / length * BARB.min(0.4 * length));
     let barb = |side: f32| [to[0] - x - 0.5 * side * y, to[1] - y + 0.5 * side * x];
     [barb(1.0), to, barb(-1.0)]
