@@ -9,8 +9,8 @@ use super::verdict::RunFailure;
 use crate::run::race::StopReason;
 use crate::sim::bodies::Tumble;
 
-/// The angle in radians between its axis and L above which a body has tipped over, 45°, and the largest true angle times
-/// this factor, if that is more.
+/// The angle in radians between its axis and L above which a body has tipped over, which is 45°. If the largest true
+/// angle times this factor is more, it is that.
 const TIPPED: f64 = std::f64::consts::FRAC_PI_4;
 const FARTHER: f64 = 1.5;
 

@@ -25,8 +25,8 @@ pub struct SpinFinding {
     pub energy: f64,
     /// The largest angle in space between the two angular momenta, in radians.
     pub momentum_turn: f64,
-    /// The time in seconds at which the axis about which the body began to turn is more than 45° from L, and half as far
-    /// again as it ever is in truth.
+    /// The time in seconds at which the body tips over. The axis about which it began to turn is then more than
+    /// 45° from L, and half as far again as it ever is in truth.
     pub tips_at_s: Option<f64>,
     /// Flips of that axis, of the lane and of the truth.
     pub flips: [u32; 2],

@@ -34,7 +34,8 @@ pub fn edited_values(
     index: usize,
     value: f64,
 ) -> Result<Vec<f64>, EditError> {
-    let Parameter { key, range, .. } = &kind.parameters[index];
+    let Parameter { key, range, list, .. } = &kind.parameters[index];
+    let key = list.unwrap_or(key);
     let (wanted, written) = (Wanted::of(*range), typed_number(value));
     if let Range::Curve { .. } = range {
         let found = format!("the number {written}");
@@ -96,7 +97,7 @@ fn typed_number(value: f64) -> String {
 mod tests {
     use super::*;
     use crate::scene::Scene;
-    use crate::sim::bodies::{BODIES, MAX_VALUE, kind};
+    use crate::sim::bodies::{BODIES, MAX_VALUE, by_key, kind};
 
     /// Returns the values of the only body of a scene with this table, or the error message.
     fn parsed(table: &str) -> Result<Vec<f64>, String> {
@@ -108,8 +109,20 @@ mod tests {
     /// Returns a table with all required parameters, in which every number is 1, except that the parameter with the
     /// index in `edit` has the value there.
     fn table(kind: &Kind, edit: Option<(usize, f64)>) -> String {
-        let row = |(index, parameter): (usize, &Parameter)| {
-            let Parameter { key, default, range, .. } = parameter;
+        let mut index = 0;
+        let row = |group: &[Parameter]| {
+            let Parameter { key, default, range, list, .. } = &group[0];
+            let first = index;
+            index += group.len();
+            if let Some(key) = list {
+                let number = |(at, parameter): (usize, &Parameter)| match edit {
+                    Some((edited, value)) if edited == at => typed_number(value),
+                    _ => typed_number(parameter.default.unwrap_or(1.0)),
+                };
+                let numbers: Vec<_> = (first..).zip(group).map(number).collect();
+                return format!("{key} = [{}]\n", numbers.join(", "));
+            }
+            let index = first;
             match (edit, range) {
                 (Some((edited, value)), _) if edited == index => {
                     format!("{key} = {}\n", typed_number(value))
@@ -119,7 +132,7 @@ mod tests {
                 _ => format!("{key} = 1\n"),
             }
         };
-        let rows = kind.parameters.iter().enumerate().map(row);
+        let rows = by_key(&kind.parameters).map(row);
         format!("[[{}]]\n{}", kind.id, rows.collect::<String>())
     }
 

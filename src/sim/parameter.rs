@@ -53,9 +53,11 @@ impl Parameter {
         Self { key, name: None, symbol: None, about, unit, default: None, range, acts, list: None }
     }
 
-    /// Returns the description after the letter, such as `m, the mass`.
+    /// Returns the description after the letter, such as `m, the mass`, and before the list that the number is in.
     pub fn described(&self) -> String {
-        self.symbol.map_or_else(|| self.about.into(), |symbol| format!("{symbol}, {}", self.about))
+        let symbol = self.symbol.map_or_else(String::new, |symbol| format!("{symbol}, "));
+        let list = self.list.map_or_else(String::new, |key| format!(" (in `{key}`)"));
+        format!("{symbol}{}{list}", self.about)
     }
 
     /// Returns the name of the parameter in words.
