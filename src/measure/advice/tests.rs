@@ -35,7 +35,7 @@ fn margins_name_each_known_limit_and_each_unknown_one() {
 }
 
 #[test]
-fn cost_ranks_before_substeps_and_substeps_before_table_order() {
+fn cost_ranks_before_a_symplectic_method_and_that_before_table_order() {
     let judge = Judge::new(&Scene::built_in("ship").unwrap());
     let advised = |(id, substeps, evaluations_per_s): (&str, u32, f64)| {
         let spec = LaneSpec::plain(method(id).unwrap());
@@ -51,7 +51,8 @@ fn cost_ranks_before_substeps_and_substeps_before_table_order() {
         [("pefrl", 3, 720.0), ("exponential-rosenbrock-euler", 1, 360.0), ("rk4", 8, 1920.0)],
         [("rk4", 1, 240.0), ("implicit-midpoint", 1, 180.0), ("pefrl", 2, 480.0)],
         [("velocity-verlet", 1, 120.0), ("explicit-euler", 2, 120.0), ("midpoint", 2, 120.0)],
-        [("improved-euler", 2, 240.0), ("pefrl", 2, 240.0), ("rk4", 2, 240.0)],
+        [("pefrl", 2, 240.0), ("improved-euler", 2, 240.0), ("rk4", 2, 240.0)],
+        [("improved-euler", 2, 240.0), ("ssp-rk3", 2, 240.0), ("rk4", 4, 240.0)],
     ] {
         for turn in 0..3 {
             let mut advised = all.map(advised);
@@ -82,7 +83,7 @@ fn the_stiffness_search_stays_within_the_limits_of_a_scene() {
 ///
 /// For most nets, this work is hundreds of runs over twenty times the scene's length, on which the claim *bounded*
 /// rests.
-const MILLIONS: [(&str, f64); 31] = [
+const MILLIONS: [(&str, f64); 36] = [
     ("ball", 517.0),
     ("perpetual", 25.5),
     ("pong", 37.8),
@@ -114,6 +115,11 @@ const MILLIONS: [(&str, f64); 31] = [
     ("alike", 12.5),
     ("engines", 135.0),
     ("stiff-in-engines", 71.0),
+    ("coin", 1.0),
+    ("t-handle", 1.0),
+    ("phone", 1.0),
+    ("long-box", 1.0),
+    ("gyro", 1.0),
 ];
 
 /// Limit in an unoptimised build, in which all scenes would take half an hour.
@@ -121,6 +127,7 @@ const MAX_MILLIONS: f64 = if cfg!(debug_assertions) { 12.0 } else { f64::INFINIT
 
 #[test]
 fn advice_on_each_built_in_scene_takes_the_recorded_work() {
+    let mut off = Vec::new();
     for scene in SCENES {
         let known = MILLIONS.iter().find(|(name, _)| *name == scene.name);
         let (name, wanted) = *known.unwrap_or_else(|| panic!("{} has no bound", scene.name));
@@ -135,8 +142,11 @@ fn advice_on_each_built_in_scene_takes_the_recorded_work() {
             advised[row].search_margins(&adviser, criterion);
         }
         let found = adviser.judge().meter().counted() as f64 / 1e6;
-        assert!((0.8..1.2).contains(&(found / wanted)), "{name}: {found} million, not {wanted}");
+        if !(0.8..1.2).contains(&(found / wanted)) {
+            off.push(format!("{name}: {found} million, not {wanted}"));
+        }
     }
+    assert!(off.is_empty(), "{off:#?}");
 }
 
 /// An undamped swing grows under explicit Euler at any step, and a damped one from hω = 2ζ on.

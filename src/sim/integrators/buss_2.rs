@@ -9,7 +9,7 @@ pub(super) const CARD: Method = Method {
     order: 2,
     order_with_drag: 2,
     source: "Buss, Accurate and efficient simulation of rigid-body rotations (2000)",
-    formula: &["w = ω + ½h ω̇, turn by h w", "L stays in space: ω′ = I⁻¹ exp(−h w) L"],
+    formula: &["w = ω + ½h a, turn by h w", "L stays in space: ω′ = I⁻¹ exp(−h w) L"],
     ..GYRO
 };
 

@@ -10,7 +10,7 @@ pub(super) const CARD: Method = Method {
     order_with_drag: 3,
     source: "Buss, Accurate and efficient simulation of rigid-body rotations (2000)",
     formula: &[
-        "w = ω + ½h ω̇ + h² ω̈ / 6 − h² (ω̇ × ω) / 12, turn by h w",
+        "w = ω + ½h a + h² j / 6 − h² (a × ω) / 12, j = da/dt, turn by h w",
         "L stays in space: ω′ = I⁻¹ exp(−h w) L",
     ],
     ..GYRO

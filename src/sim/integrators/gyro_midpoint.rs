@@ -12,7 +12,7 @@ pub(super) const CARD: Method = Method {
     evaluation_cost: 4,
     source: "Hairer, Lubich & Wanner, Geometric Numerical Integration (2006), VII.5; MuJoCo 3.7 to 3.10",
     formula: &[
-        "m = ω + ½h ω̇(m), ω′ = 2 m − ω",
+        "m = ω + ½h a(m), ω′ = 2 m − ω",
         "turn by the quaternion 1 + ½h m, scaled to length 1",
     ],
     ..GYRO

@@ -11,8 +11,8 @@ pub(super) const CARD: Method = Method {
     evaluation_cost: 4,
     source: "Kutta (1901), on the group of rotations: MuJoCo's integrator RK4",
     formula: &[
-        "ω₁ to ω₄ of RK4 on ω̇ = −I⁻¹(ω × L), and ω′",
-        "u̇ = w + ½ u × w + u × (u × w) / 12 with them, turn by u",
+        "ω₁ to ω₄ of RK4 on a = −I⁻¹(ω × L), and ω′",
+        "du/dt = w + ½ u × w + u × (u × w) / 12 with them, turn by u",
     ],
     ..GYRO
 };

@@ -12,7 +12,7 @@ pub(super) const CARD: Method = Method {
     evaluation_cost: 6,
     source: "Munthe-Kaas, Runge-Kutta methods on Lie groups (1998)",
     formula: &[
-        "u̇ = w + ½ u × w + u × (u × w) / 12, w = I⁻¹ exp(−u) L",
+        "du/dt = w + ½ u × w + u × (u × w) / 12, w = I⁻¹ exp(−u) L",
         "one step of RK4 from u = 0, turn by u",
         "L stays in space: ω′ = I⁻¹ exp(−u) L",
     ],

@@ -118,8 +118,12 @@ impl Rule {
 
     /// Returns the free fall of the rule, if it has one.
     fn fall(&self) -> Option<Fall> {
+        [1.0, -1.0].into_iter().find_map(|side| self.fall_on(side))
+    }
+
+    /// Returns the free fall on this side of the floor.
+    fn fall_on(&self, side: f64) -> Option<Fall> {
         let gained = |side: f64, fps: f64| self.frame_of([side * ALOFT, 0.0], fps)[1] * fps;
-        let side = -gained(1.0, self.fps).signum();
         let acceleration = gained(side, self.fps);
         let is_alike = |other: f64| (other / acceleration - 1.0).abs() < ROUNDING;
         let falls = acceleration.is_finite() && acceleration * side < 0.0;

@@ -139,7 +139,7 @@ mod tests {
             kinds,
             [
                 "ball", "chain", "follow", "helm", "law", "net", "orbit", "pendulum", "ship",
-                "spring"
+                "spring", "tumble"
             ]
         );
     }
