@@ -31,6 +31,7 @@ const RUNS: &[(&str, &str)] = &[
     ("loop", "loop --trace steady-60 --policy fixed --policy whole-refresh"),
     ("port", "port --to engine-jolt --frequency 1.5 --damping-ratio 0.1"),
     ("rule", "rule v*=0.9;x+=v*dt"),
+    ("rule", "rule v-=9.81*dt;x+=v*dt;if(x<0){x=0;v=-0.8*v}"),
     ("show", "show rk4"),
     ("show", "show fixed --as c"),
     ("show", "show clamp --as csharp"),
