@@ -474,6 +474,8 @@ complete -c regatta -n "__fish_regatta_using_subcommand capture" -l race -d 'Rac
 complete -c regatta -n "__fish_regatta_using_subcommand capture" -l force -d 'Replace the frames in DIR, or FILE'
 complete -c regatta -n "__fish_regatta_using_subcommand capture" -s h -l help -d 'Print help (see more with \'--help\')'
 complete -c regatta -n "__fish_regatta_using_subcommand verify" -l report -d 'Also write the result to FILE, as junit or json' -r
+complete -c regatta -n "__fish_regatta_using_subcommand verify" -l format -d 'The format of standard output: text or json' -r -f -a "text\t'Aligned columns, for people'
+json\t'An array of objects, for programs'"
 complete -c regatta -n "__fish_regatta_using_subcommand verify" -l diff -d 'Draw the difference of each changed frame into DIR' -r -F
 complete -c regatta -n "__fish_regatta_using_subcommand verify" -l max-channel -d 'The largest allowed difference of a channel, 0 to 255' -r
 complete -c regatta -n "__fish_regatta_using_subcommand verify" -l max-pixels -d 'The largest allowed percentage of pixels off by more than 1' -r
@@ -1387,6 +1389,8 @@ javascript\t''
 lua\t''
 cpp\t''
 step\t''"
+complete -c regatta -n "__fish_regatta_using_subcommand show" -l format -d 'The format: text or json' -r -f -a "text\t'Aligned columns, for people'
+json\t'An array of objects, for programs'"
 complete -c regatta -n "__fish_regatta_using_subcommand show" -l float -d 'Use single precision, as Unity and Godot do'
 complete -c regatta -n "__fish_regatta_using_subcommand show" -s h -l help -d 'Print help (see more with \'--help\')'
 complete -c regatta -n "__fish_regatta_using_subcommand fixture" -l scene -d 'A scene or the file of one [default: harbour]' -r -f -a "harbour\t''

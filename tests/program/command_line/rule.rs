@@ -38,6 +38,7 @@ fn a_spring_without_dt_is_twice_as_fast_at_twice_the_rate() {
         "linear",
         "seen",
         "pieces",
+        "bounce",
         "within",
         "jump_speed",
         "hint",
