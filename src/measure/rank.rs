@@ -2,8 +2,8 @@
 //!
 //! The lowest [cost](CriterionMet::cost_per_s) comes first. Of equal costs a [last resort](is_last_resort) comes last;
 //! other ties go to the larger [reserve](CriterionMet::reserve), then to a symplectic method, then to the fewest
-//! substeps, then to the place in the table of methods. A method with a reserve below [`LITTLE_RESERVE`] is passed over if another method has a larger
-//! reserve at up to [`TIMES_ITS_COST`] times the cost.
+//! substeps, then to the place in the table of methods. A method with a reserve below [`LITTLE_RESERVE`] is passed over
+//! if another method has a larger reserve at up to [`TIMES_ITS_COST`] times the cost.
 
 use super::criterion::CriterionMet;
 use crate::sim::integrators::{Family, METHODS, Method};

@@ -242,8 +242,8 @@ pub enum ViewCommand {
     /// Toggles the enlarged instrument, or quits if the program asks whether to quit.
     Enter,
     /// Takes the foremost of these away: body or tick rate in hand, dialog, help, guide, inspector, enlarged
-    /// instrument, futures, comparison, run beside, loop lab, race, full screen. If there is none, asks whether to quit,
-    /// or answers that question with no.
+    /// instrument, futures, comparison, run beside, loop lab, race, full screen. If there is none, asks whether to
+    /// quit, or answers that question with no.
     Escape,
 }
 

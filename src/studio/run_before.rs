@@ -51,8 +51,8 @@ impl EndingRun {
         (run.end() > 0).then_some(Self { histories, until_s, began })
     }
 
-    /// Returns the solo run from its start, at the tick rate and without the person's later actions, if the one that
-    /// has begun now differs from it in the tick rate alone.
+    /// Returns the solo run from its start at its tick rate, without the person's later actions. Returns `None` unless
+    /// the run that has begun now differs from it in the tick rate alone.
     pub(super) fn beside(&self, from: Race, run: &Run, selected: &Entrant) -> Option<RunBeside> {
         let ((tick_hz, spec), now) = (self.began, beginning(run, selected).0);
         let is_beside = from.mode() == Mode::Solo && now.0 != tick_hz && now.1 == spec;

@@ -80,8 +80,7 @@ fn is_report(path: &Path) -> bool {
     start.is_empty() || start.starts_with(JUNIT_BEGINS) || is_json()
 }
 
-/// The result of a command. Each line that is said goes to standard output at once, unless that gets the result as
-/// JSON.
+/// The result of a command. Its lines go to standard output at once, unless the format is JSON.
 #[derive(Debug)]
 pub(super) struct Report {
     pub(super) path: PathBuf,

@@ -1,8 +1,8 @@
 //! What the lines of a rule do to the bounces of a ball.
 //!
-//! Under gravity every impact adds (s + κ) g h to the speed of a ball that loses none. The step decides s, which is -1
-//! for semi-implicit Euler, 0 for an exact fall and 1 for explicit Euler. The line for the impact decides κ, which is 0
-//! where it keeps the energy, 0.5 where it puts the ball on the floor, and 1 where it mirrors the place.
+//! Under gravity every impact adds (s + κ) g h to the speed of a ball that loses none. The step decides s: -1 for
+//! semi-implicit Euler, 0 for an exact fall, 1 for explicit Euler. The line for the impact decides κ. It is 0 where the
+//! line keeps the energy, 0.5 where it puts the ball on the floor, and 1 where it mirrors the place.
 
 use super::Rule;
 
