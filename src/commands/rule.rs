@@ -262,19 +262,23 @@ const BOUNCES: &[Column<BouncesSeen>] = &[
 ];
 
 /// Returns what a rule does to the bounces of a ball.
-fn bounces(bounce: &RuleBounce) -> String {
+fn bounces(bounce: &RuleBounce, fps: f64) -> String {
     let number = |value: f64| round((1e3 * value).round() / 1e3, 3);
     let gain = number(bounce.s + bounce.kappa);
-    let course = match bounce.s + bounce.kappa {
-        gain if gain.abs() < 1e-3 => "the height is right at every rate but for single starts",
-        gain if gain > 0.0 => "it bounces too high, and without loss higher every time",
-        _ => "it bounces too low, and the lower the frame rate the sooner it dies",
+    let here = bounce.seen.iter().find(|seen| seen.fps == fps);
+    let course = match here.and_then(|seen| seen.heights.into_iter().flatten().next_back()) {
+        None => "no impact is seen",
+        Some(height) if height < 0.0 => "it sinks through the floor",
+        Some(height) if height > 1.02 => "it bounces too high",
+        Some(height) if height < 0.98 => "it bounces too low",
+        Some(_) => "its mean height is right within 2 %",
     };
     format!(
         "a ball that falls by {} a second per second and keeps {} of its speed at the floor:\n\
          s = {} by the step, kappa = {} by the line at the floor\n\
-         without loss an impact adds (s + kappa) g h = {gain} g h to the speed: {course}\n\
-         \nheight after impacts over the true one, mean of many starts:\n{}",
+         without loss an impact adds (s + kappa) g h = {gain} g h to the speed\n\
+         at {fps} frames per second {course}\n\
+         \nheight after impacts over the true one, mean of 64 falls of 0.45 s, as from 1 m on Earth:\n{}",
         number(bounce.gravity),
         number(bounce.restitution),
         number(bounce.s),
@@ -337,7 +341,7 @@ fn report_text(rule: &Rule, written: &str, language: Language) -> String {
     let mut said = format!("{kind}; of {}\n\n", rule.state().collect::<Vec<_>>().join(" and "));
     let pieces = rule.pieces();
     if let Some(bounce) = rule.bounce() {
-        said = bounces(&bounce);
+        said = bounces(&bounce, fps);
     } else if pieces.is_empty() {
         said += &tables(rule);
     } else {

@@ -10,6 +10,8 @@ const START_MS: f64 = 1000.0;
 const MAX_TICKS: f64 = 1e5;
 /// A frame that no limit cuts, in milliseconds.
 const NO_LIMIT_MS: f64 = 1e12;
+/// Longest time that lines may name, in nanoseconds: thirty years.
+const MOST_NS: i64 = 1_000_000_000_000_000_000;
 const MILLISECOND_NS: i64 = 1_000_000;
 const SECOND_NS: i64 = 1_000_000_000;
 /// Most units of a nanosecond in lines of whole numbers: a frame of 45 s is exact.
@@ -83,9 +85,15 @@ impl Lines {
     /// Converts a time of the lines to the unit of the base.
     fn time(&self, time: f64) -> i128 {
         match self.unit {
-            Some(unit) => time.round() as i128 * unit,
-            None => (time * self.base.nanoseconds(MILLISECOND_NS) as f64).round() as i128,
+            Some(unit) => self.within(time.round(), unit),
+            None => self.within((time * self.base.nanoseconds(MILLISECOND_NS) as f64).round(), 1),
         }
+    }
+
+    /// Converts a whole number of units, and limits the time, so that no sum of times overflows.
+    fn within(&self, whole: f64, unit: i128) -> i128 {
+        let most = self.base.nanoseconds(MOST_NS) / unit;
+        (whole as i128).clamp(-most, most) * unit
     }
 
     /// Decides on the steps of a frame, whose duration is also given in milliseconds as a game reads it.
@@ -120,7 +128,7 @@ impl Lines {
         self.dropped += dropped;
         self.owed = match (self.unit, output.owed) {
             (Some(_), Some(owed)) => self.time(owed),
-            _ if self.text.shows() => (output.shown * self.tick as f64) as i128,
+            _ if self.text.shows() => self.within(output.shown * self.tick as f64, 1),
             _ => 0,
         };
         let returned = output.returned.map(|returned| returned.clamp(0.0, MAX_TICKS) as u32);

@@ -110,8 +110,8 @@ pub(super) async fn follow_spin(
         };
         let late = |(own, exact): (&f64, &f64)| own - exact;
         let all = || own.at_s.iter().zip(&exact.at_s).map(late);
-        let worst = all().fold(0.0, |worst: f64, late| worst.max(late.abs()));
-        found.late = all().next().map(|first| (first, worst / between));
+        let worst = all().reduce(|worst, late| if late.abs() > worst.abs() { late } else { worst });
+        found.late = worst.map(|worst| (worst, worst / between));
         // A body that flips in truth does not tip over.
         found.tips_at_s = None;
     }

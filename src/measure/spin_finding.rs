@@ -5,7 +5,7 @@ use std::fmt;
 
 use super::criterion::{TOLERANCE, VISIBLE};
 use super::outcome::Outcome;
-use crate::sim::number::{duration, significant};
+use crate::sim::number::{counted, duration, significant};
 
 /// Half a turn, in radians: attitudes cannot be farther apart.
 const HALF_TURN: f64 = std::f64::consts::PI;
@@ -30,7 +30,7 @@ pub struct SpinFinding {
     pub tips_at_s: Option<f64>,
     /// Flips of that axis, of the lane and of the truth.
     pub flips: [u32; 2],
-    /// By how many seconds the first flip is late, and the largest delay of a flip in parts of the time between two.
+    /// By how many seconds the flip that is most off is late, and the same in parts of the time between two.
     pub late: Option<(f64, f64)>,
     /// Length of the run in seconds.
     pub seconds: f64,
@@ -86,8 +86,10 @@ impl SpinFinding {
             _ if self.outcome() <= Outcome::Accurate => ("attitude error", degrees, "°"),
             Some(at_s) => ("tips over at", at_s, "s"),
             None if !self.keeps_energy() => ("energy", self.energy, "×"),
-            None if self.flips[0] == 0 && self.flips[1] > 0 => ("flips", 0.0, ""),
-            None if let Some((late_s, _)) = self.late => ("delay of the first flip", late_s, "s"),
+            None if self.flips[1] > 0 && self.flips[0] != self.flips[1] => {
+                ("flips", f64::from(self.flips[0]), "")
+            }
+            None if let Some((late_s, _)) = self.late => ("delay of a flip", late_s, "s"),
             None if self.momentum_turn > VISIBLE => {
                 ("turn of L", self.momentum_turn.to_degrees(), "°")
             }
@@ -115,10 +117,14 @@ impl fmt::Display for SpinFinding {
                 let lost = significant(100.0 * (1.0 - value), 2);
                 write!(f, "loses {lost} % of its energy in {span}")
             }
-            "flips" => f.write_str("never flips"),
-            "delay of the first flip" => {
+            "flips" if value == 0.0 => f.write_str("never flips"),
+            "flips" => {
+                let [own, truth] = self.flips;
+                write!(f, "flips {} instead of {truth}", counted(u64::from(own), "time"))
+            }
+            "delay of a flip" => {
                 let way = if value > 0.0 { "late" } else { "early" };
-                write!(f, "flips {way} by {} ms", significant(1e3 * value.abs(), 2))
+                write!(f, "flips up to {} ms too {way}", significant(1e3 * value.abs(), 2))
             }
             "turn of L" => write!(f, "its L turns {}{unit} in space", significant(value, 2)),
             _ if self.outcome() <= Outcome::Accurate => {

@@ -6,11 +6,6 @@
 
 use glam::{DQuat, DVec3};
 
-use super::state::State;
-
-/// Number of coordinates of such a body.
-pub(super) const COORDINATES: usize = 7;
-
 /// The state of a body that turns.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Spin {
@@ -39,13 +34,6 @@ impl Spin {
         let numbers = |turns: DVec3, x: DQuat| [turns.x, turns.y, turns.z, x.w, x.x, x.y, x.z];
         q.copy_from_slice(&numbers(turns, attitude));
         v.copy_from_slice(&numbers(omega, rate));
-    }
-
-    /// Returns the coordinates and the velocities.
-    pub(super) fn state(&self) -> State<Vec<f64>> {
-        let mut state = State { q: vec![0.0; COORDINATES], v: vec![0.0; COORDINATES] };
-        self.write(&mut state.q, &mut state.v);
-        state
     }
 }
 

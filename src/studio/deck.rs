@@ -282,7 +282,8 @@ impl Deck {
 
     /// Keeps the run before a change of the tick rate beside the run. Further changes within a moment belong to it.
     pub(super) fn keep_beside(&mut self, before: Race) {
-        let is_recent = |it: &RunBeside| (0.0..=SWITCHED_S).contains(&(before.t() - it.from_s()));
+        let is_recent =
+            |it: &RunBeside| (0.0..=SWITCHED_S).contains(&(before.t() - it.begins_at_s()));
         let is_same = self.run_beside.as_deref().is_some_and(is_recent);
         if before.mode() == Mode::Solo && before.tick() > 0 && !is_same {
             self.run_beside = Some(RunBeside::new(before).into());

@@ -27,7 +27,7 @@ impl RunBeside {
     }
 
     /// Returns the moment (s) at which it began.
-    pub(super) fn from_s(&self) -> f64 {
+    pub(super) fn begins_at_s(&self) -> f64 {
         self.from.t()
     }
 

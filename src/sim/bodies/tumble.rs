@@ -32,6 +32,8 @@ pub(super) fn kind() -> Kind {
 
 type Of = ParameterOf<Tumble>;
 
+/// Number of coordinates.
+const COORDINATES: usize = 7;
 /// The keys of a scene's lists.
 const MOMENTS: &str = "moments_kg_m2";
 const SPIN: &str = "spin_rad_per_s";
@@ -200,7 +202,10 @@ impl Body for Tumble {
 
     fn start(&self) -> State<Vec<f64>> {
         let attitude = self.attitude * (1.0 / self.attitude.length());
-        Spin { turns: DVec3::ZERO, omega: self.spin, attitude }.state()
+        let mut state = State { q: vec![0.0; COORDINATES], v: vec![0.0; COORDINATES] };
+        let spin = Spin { turns: DVec3::ZERO, omega: self.spin, attitude };
+        spin.write(&mut state.q, &mut state.v);
+        state
     }
 
     fn settle(&self, state: &mut State<Vec<f64>>) {

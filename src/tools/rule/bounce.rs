@@ -19,6 +19,8 @@ const FASTER: f64 = 0.07;
 /// Numbers of impacts after which the height is compared, and maximum number of frames for them.
 const AFTER: [usize; 3] = [1, 5, 10];
 const MAX_FRAMES: u32 = 20_000;
+/// Largest relative difference of the restitutions at two speeds.
+const ALIKE: f64 = 1e-4;
 /// Relative rounding error of a free fall.
 const ROUNDING: f64 = 1e-6;
 
@@ -78,7 +80,7 @@ impl Rule {
         let gravity = fall.acceleration.abs();
         let fast = gravity * FALL_S;
         // The tick after the crossing is this part of a frame's way below the floor.
-        let hit = |part: f64| {
+        let hit = |part: f64, fast: f64| {
             let h = 1.0 / FINE_FPS;
             let start = [fall.side * fast * h * (1.0 - part), -fall.side * fast];
             let after = self.frame_of(start, FINE_FPS);
@@ -90,13 +92,17 @@ impl Rule {
             let later = self.frame_of(after, FINE_FPS);
             is_turned(later).then(|| (after, fall.back(later, h)))
         };
-        let (before, after) = hit(1e-6)?;
-        let restitution = -after[1] / before[1];
+        let kept = |(before, after): ([f64; 2], [f64; 2])| -after[1] / before[1];
+        let restitution = kept(hit(1e-6, fast)?);
+        // A speed that is not a part of the one before is no restitution.
+        if (kept(hit(1e-6, 2.0 * fast)?) / restitution - 1.0).abs() > ALIKE {
+            return None;
+        }
         let speed = |[x, v]: [f64; 2], kept: f64| {
             let energy = (v / kept) * (v / kept) + 2.0 * gravity * x * fall.side;
             energy.max(0.0).sqrt()
         };
-        let (before, after) = hit(0.5)?;
+        let (before, after) = hit(0.5, fast)?;
         let kappa = (speed(after, restitution) - speed(before, 1.0)) * FINE_FPS / gravity;
         if !(restitution > 0.0 && restitution < 1.5) || kappa.abs() > 3.0 {
             return None;
@@ -265,6 +271,8 @@ mod tests {
             "v -= 9.81*dt; x += v*dt",
             "v = (v + (target - x)*0.2)*0.85; x += v",
             "v -= 9.81*dt; x += v*dt; if x < 0 { x = 0; v = 0 }",
+            "v -= 9.81*dt; x += v*dt; if x < 0 { x = 0; v = 5 }",
+            "v -= 9.81*dt; x += v*dt; if x < 0 { x = 0; v = -v - 0.1 }",
         ] {
             assert_eq!(Rule::read(lines, 60.0).unwrap().bounce(), None, "{lines}");
         }

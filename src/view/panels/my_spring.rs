@@ -22,7 +22,7 @@ const BETWEEN: f32 = 16.0;
 const FRAME: f32 = 40.0;
 /// Height of the dialog's numbers, and of the curves below and beside them, in points.
 const NUMBERS: f32 = 480.0;
-const CURVES: f32 = 170.0;
+const CURVES: f32 = 160.0;
 const WIDE_CURVES: f32 = 300.0;
 
 mod response;

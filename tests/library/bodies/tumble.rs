@@ -462,8 +462,8 @@ fn a_verdict_tells_whether_a_body_tips_over_flips_and_keeps_its_energy() {
         ("long-box", "gyro-rotated-engine", "looks right · its L turns 8.2° in space"),
         ("phone", "gyro-off", "inaccurate · never flips"),
         ("phone", "engine-bullet", "dies away · loses 76 % of its energy in 10 s"),
-        ("phone", "gyro-rescaled", "inaccurate · flips late by 62 ms"),
-        ("t-handle", "split-3", "looks right · flips late by 0.26 ms"),
+        ("phone", "gyro-rescaled", "inaccurate · flips 4 times instead of 6"),
+        ("t-handle", "split-3", "looks right · flips up to 5.5 ms too late"),
         ("gyro", "gyro-rescaled", "grows · tips over at 1.97 s, energy ×1.77 in 10 s"),
         ("gyro", "gyro-off", "looks right · off by 8.3° at 9.6 s"),
     ];

@@ -58,7 +58,7 @@ fn faults(value: &Value, schema: &Value, place: &str, found: &mut Vec<String>) {
         "null" => value.is_null(),
         other => panic!("{place}: {other}"),
     };
-    if !types.iter().any(|name| is_of(name)) {
+    if !types.iter().any(is_of) {
         found.push(format!("{place}: {value} is not of {types:?}"));
     }
     if let Some(object) = value.as_object() {

@@ -10,13 +10,13 @@ use crate::view::chart::{
 use crate::view::theme::{PanelPalette, colour, palette};
 
 /// Height of the line of a mass, and half the side of a mass, in points.
-const TRACK: f32 = 34.0;
+const TRACK: f32 = 37.0;
 const HALF: f32 = 9.0;
 /// Width of the numbers beside the curves, in points.
 const LEFT: f32 = 30.0;
 /// Width of this part, and height of all but its curves, in points.
 pub(super) const WIDTH: f32 = 276.0;
-pub(super) const BESIDES_CURVES: f32 = 150.0;
+pub(super) const BESIDES_CURVES: f32 = 156.0;
 /// Time for which the masses rest before they are let go again, in seconds.
 const PAUSE_S: f64 = 0.6;
 /// Damping ratio at the end of the slider.
