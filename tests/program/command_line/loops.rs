@@ -511,3 +511,22 @@ fn a_log_with_diverging_clocks_uses_frame_starts_with_a_notice() {
         }
     }
 }
+
+#[test]
+fn lines_that_name_an_absurd_time_make_rows_and_no_panic() {
+    let folder = tempfile::tempdir().unwrap();
+    for lines in [
+        "tick 1\nshow 1/0\n",
+        "tick 1\nshow 1e308*10\n",
+        "memory owed = 0\nowed = 1e300\ntick 1\n",
+        "memory owed = 0\nowed = -1e300\ntick 1\nshow owed/H\n",
+        "memory dropped = 0\ndropped = 1e300\ntick 1\n",
+    ] {
+        fs::write(folder.path().join("odd.loop"), lines).unwrap();
+        let asked = "loop --policy odd.loop --trace steady-144 --seconds 1 --format json";
+        let output = run_in(folder.path(), asked);
+        assert_eq!(output.status.code(), Some(0), "{lines}: {}", stderr(&output));
+        let rows: Vec<Value> = serde_json::from_slice(&output.stdout).unwrap();
+        assert!(rows[0]["ticks"].as_u64().unwrap() > 100, "{lines}: {rows:?}");
+    }
+}
