@@ -4,7 +4,6 @@ use super::prelude::*;
 
 pub(super) const CARD: Method = Method {
     id: "gyro-rk4",
-    also: &["mujoco-rk4"],
     name: "Gyroscopic Runge-Kutta 4",
     about: "accurate at a fine tick; a fast wobble loses energy",
     order: 4,

@@ -44,7 +44,8 @@ pub struct RuleBounce {
 pub struct BouncesSeen {
     /// Frames per second.
     pub fps: f64,
-    /// Heights after 1, 5 and 10 impacts over the true ones, as means of many starts. `None` if not all starts get there.
+    /// Heights after 1, 5 and 10 impacts over the true ones, as means of many starts. `None` if not all starts get
+    /// there.
     pub heights: [Option<f64>; 3],
 }
 
