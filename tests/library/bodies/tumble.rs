@@ -157,16 +157,12 @@ fn the_exact_motion_obeys_its_equation_and_keeps_the_sign_of_its_quaternion() {
             body.acceleration(t, &now.q, &now.v, &mut a);
             let fast = body.spin.length()
                 * (1.0 + body.moments.max_element() / body.moments.min_element());
-            for i in 0..7 {
+            for (i, a) in a.iter().enumerate() {
                 let rate = (after.q[i] - before.q[i]) / (2.0 * d);
                 let near = (rate - now.v[i]).abs() < 1e-5 * fast * (1.0 + now.v[i].abs());
                 assert!(near, "{body:?}, {t} s, {i}: {rate}, {}", now.v[i]);
                 let rate = (after.v[i] - before.v[i]) / (2.0 * d);
-                assert!(
-                    (rate - a[i]).abs() < 1e-4 * fast * fast,
-                    "{body:?}, {t} s, {i}: {rate}, {}",
-                    a[i]
-                );
+                assert!((rate - a).abs() < 1e-4 * fast * fast, "{body:?}, {t} s, {i}: {rate}, {a}");
             }
         }
     }
@@ -250,7 +246,10 @@ fn an_explicit_step_gains_energy_as_mujoco_logged_and_blows_up_in_45_s() {
         assert_near(after(STARTS[0]), 4.024905, 1e-6);
         assert_near(after(STARTS[2]), 5.584288, 1e-6);
         let mut lost = Steps::of(&plain(STARTS[1]), id, 60.0, 1);
-        let end = (0..2700).find(|_| !(omega(lost.tick()).length() < 1e10));
+        let end = (0..2700).find(|_| {
+            let fast = omega(lost.tick()).length();
+            fast.is_nan() || fast >= 1e10
+        });
         assert!(end.is_some_and(|tick| tick > 2670), "{id}: {end:?}");
     }
 }
