@@ -66,7 +66,7 @@ impl Turning {
     /// Returns the axis of the longest side, in the frame of the world and up to the end of the box.
     fn tip(&self, attitude: DQuat) -> DVec3 {
         let sides = self.half_sides();
-        let longest = (0..3).fold(0, |a, b| if sides[b] > sides[a] { b } else { a });
+        let longest = sides.max_position();
         attitude * (DVec3::AXES[longest] * sides[longest])
     }
 
@@ -81,7 +81,7 @@ impl BodyPicture for Turning {
         let place = |at: DVec3| seen(attitude * at);
         let is_seen =
             |axis: usize, side: f64| (attitude * (DVec3::AXES[axis] * side)).dot(VIEW[2]) > 0.0;
-        let thinnest = (0..3).fold(0, |a, b| if sides[b] < sides[a] { b } else { a });
+        let thinnest = sides.min_position();
         for axis in 0..3 {
             let [mut along, mut across] = [(axis + 1) % 3, (axis + 2) % 3];
             if sides[across] > sides[along] {

@@ -6,6 +6,8 @@
 //! of `x*x*x`, and `x^-2` those of `1/(x*x)`. Any other power is computed by `libm::pow`. The parser recurses for
 //! brackets, signs and functions, at most [`MAX_DEPTH`] deep.
 
+use std::ops::Range;
+
 use super::body::Distances;
 use compile::{Compiled, Compiler, check_names};
 use fault::quoted;
@@ -310,12 +312,12 @@ impl Equations {
         let tape = self.energy.as_ref()?;
         let n = q.len();
         let mut slots: Vec<Jet> = registers.energy.iter().map(|&x| [x, 0.0, 0.0]).collect();
-        let mut rate = |of: Option<usize>, by_velocity: bool| {
+        let mut rate = |of: Range<usize>, by_velocity: bool| {
             for i in 0..n {
-                let (moves, turns) = match by_velocity {
-                    _ if of.is_some_and(|of| of != i) => (0.0, 0.0),
-                    true => (v[i], 0.0),
-                    false => (0.0, a[i]),
+                let (moves, turns) = match (of.contains(&i), by_velocity) {
+                    (false, _) => (0.0, 0.0),
+                    (true, true) => (v[i], 0.0),
+                    (true, false) => (0.0, a[i]),
                 };
                 slots[FIRST_COORDINATE + i] = [q[i], moves, 0.0];
                 slots[FIRST_COORDINATE + n + i] = [v[i], turns, 0.0];
@@ -324,8 +326,8 @@ impl Equations {
             tape.outputs.first().map(|&slot| slots[slot as usize][1])
         };
         let terms = (0..n).flat_map(|i| [(i, true), (i, false)]);
-        let size = terms.map(|(i, of)| Some(rate(Some(i), of)?.abs())).sum::<Option<f64>>()?;
-        Some([rate(None, true)?, rate(None, false)?, size])
+        let size = terms.map(|(i, of)| Some(rate(i..i + 1, of)?.abs())).sum::<Option<f64>>()?;
+        Some([rate(0..n, true)?, rate(0..n, false)?, size])
     }
 }
 

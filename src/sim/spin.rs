@@ -37,9 +37,14 @@ impl Spin {
     }
 }
 
+/// Returns the quaternion of seven coordinates, which may have another length than 1.
+pub(super) fn quaternion_at(q: &[f64]) -> DQuat {
+    DQuat::from_xyzw(q[4], q[5], q[6], q[3])
+}
+
 /// Returns the attitude of seven coordinates, scaled to length 1 if it has another, or no turn if it has no direction.
 pub(super) fn unit_attitude(q: &[f64]) -> DQuat {
-    let attitude = DQuat::from_xyzw(q[4], q[5], q[6], q[3]);
+    let attitude = quaternion_at(q);
     let square = attitude.length_squared();
     match square {
         _ if (square - 1.0).abs() <= ROUNDING => attitude,
@@ -79,4 +84,9 @@ pub(super) fn seen_from(turn: DQuat, v: DVec3) -> DVec3 {
 /// Returns `-I⁻¹(ω × Iω)`, the angular acceleration without torque.
 pub(super) fn free_acceleration(moments: DVec3, omega: DVec3) -> DVec3 {
     -omega.cross(moments * omega) / moments
+}
+
+/// Returns the change of the [free acceleration](free_acceleration) with a small change of `omega`.
+pub(super) fn free_jerk(moments: DVec3, omega: DVec3, change: DVec3) -> DVec3 {
+    -(change.cross(moments * omega) + omega.cross(moments * change)) / moments
 }

@@ -24,51 +24,42 @@ pub(super) const ATTITUDE_ERROR: Metric = Metric {
 pub(super) const AXIS_ERROR: Metric = Metric {
     id: "axis_error",
     name: "axis error",
-    absent: "Nothing to compare: this body does not turn in space.",
-    unit: Unit::Coordinate,
-    scale: Scale::Log,
-    is_comparison: true,
-    is_of_energy: false,
     about: "angle between the directions of the angular momentum as seen from the body and from its truth, in radians",
     measure: |lane, truth| {
         let [lane, exact] = turning(lane, truth)?;
         let of = |(it, body): (&Tumble, &LaneBody)| it.momentum_in_body(body.stepper.v());
         if_finite(Tumble::turn_between(of(lane), of(exact)))
     },
+    ..ATTITUDE_ERROR
 };
 
 /// The angle between two momenta in space.
 pub(super) const MOMENTUM_TURN: Metric = Metric {
     id: "momentum_turn",
     name: "momentum turn",
-    absent: "Nothing to compare: this body does not turn in space.",
-    unit: Unit::Coordinate,
     scale: Scale::Linear,
-    is_comparison: true,
-    is_of_energy: false,
     about: "angle in space by which the angular momentum has left that of the truth, which stands still, in radians",
     measure: |lane, truth| {
         let [lane, exact] = turning(lane, truth)?;
         let of = |(it, body): (&Tumble, &LaneBody)| it.momentum(body.stepper.q(), body.stepper.v());
         if_finite(Tumble::turn_between(of(lane), of(exact)))
     },
+    ..ATTITUDE_ERROR
 };
 
 /// The difference of the lengths of two momenta.
 pub(super) const MOMENTUM_LENGTH: Metric = Metric {
     id: "momentum_length",
     name: "momentum length",
-    absent: "Nothing to compare: this body does not turn in space.",
     unit: Unit::Percent,
     scale: Scale::Linear,
-    is_comparison: true,
-    is_of_energy: false,
     about: "length of the angular momentum above that in truth, in percent of it",
     measure: |lane, truth| {
         let [lane, exact] = turning(lane, truth)?;
         let of = |(it, body): (&Tumble, &LaneBody)| it.momentum_in_body(body.stepper.v()).length();
         if_finite(100.0 * (of(lane) / of(exact) - 1.0))
     },
+    ..ATTITUDE_ERROR
 };
 
 /// Returns the body in a lane and the body in truth, both of which turn in space; `None` for other bodies, and once one

@@ -7,7 +7,9 @@ use glam::{DQuat, DVec3};
 
 use super::euler_top;
 use super::prelude::*;
-use crate::sim::spin::{Spin, free_acceleration, pure, seen_from, unit_attitude};
+use crate::sim::spin::{
+    Spin, free_acceleration, free_jerk, pure, quaternion_at, seen_from, unit_attitude,
+};
 
 pub(super) fn kind() -> Kind {
     let named =
@@ -165,7 +167,7 @@ impl System for Tumble {
     #[inline]
     fn acceleration(&self, _t: f64, q: &Vec<f64>, v: &Vec<f64>, a: &mut Vec<f64>) {
         let omega = Self::spin_of(v);
-        let attitude = DQuat::from_xyzw(q[4], q[5], q[6], q[3]);
+        let attitude = quaternion_at(q);
         let rate = free_acceleration(self.moments, omega);
         let bend = attitude * pure(rate) * 0.5 - attitude * (0.25 * omega.length_squared());
         a.copy_from_slice(&[rate.x, rate.y, rate.z, bend.w, bend.x, bend.y, bend.z]);
@@ -176,12 +178,9 @@ impl System for Tumble {
             Query::Spin(moments) => *moments = Some(self.moments),
             Query::Slope { state: State { q, v }, along, slope } => {
                 let [omega, toward] = [v, &along.v].map(|v| Self::spin_of(v));
-                let quaternion = |q: &[f64]| DQuat::from_xyzw(q[4], q[5], q[6], q[3]);
-                let (attitude, turned) = (quaternion(q), quaternion(&along.q));
+                let [attitude, turned] = [q, &along.q].map(|q| quaternion_at(q));
                 let rate = free_acceleration(self.moments, omega);
-                let change = -(toward.cross(self.moments * omega)
-                    + omega.cross(self.moments * toward))
-                    / self.moments;
+                let change = free_jerk(self.moments, omega, toward);
                 let bend = (turned * pure(rate) + attitude * pure(change)) * 0.5
                     - attitude * (0.5 * omega.dot(toward))
                     - turned * (0.25 * omega.length_squared());

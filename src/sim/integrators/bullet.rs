@@ -17,11 +17,7 @@ pub(super) const CARD: Method = Method {
         tick_hz: 60,
         damping_ratio: Some(0.0),
         substeps: Substeps::Own,
-        free_spin: Some(FreeSpin {
-            default: SpinMap::NewtonStep,
-            opt_in: None,
-            is_once_a_tick: false,
-        }),
+        free_spin: Some(FreeSpin::of(SpinMap::NewtonStep)),
         version: "3 main 6c888f4",
         logged: Some("2026-11-21"),
         modes: &MODES,

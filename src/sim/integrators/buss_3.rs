@@ -23,7 +23,7 @@ pub struct Buss3;
 impl GyroRule for Buss3 {
     fn step(h: f64, moments: DVec3, omega: DVec3) -> Turned {
         let rate = free_acceleration(moments, omega);
-        let second = -(rate.cross(moments * omega) + omega.cross(moments * rate)) / moments;
+        let second = free_jerk(moments, omega, rate);
         let bend = h * h * (second / 6.0 - rate.cross(omega) / 12.0);
         Ok(turned(moments, omega, h * (omega + h / 2.0 * rate + bend)))
     }

@@ -2,8 +2,8 @@
 //!
 //! Let `I` be the principal moments of inertia, `ω` the angular velocity in the frame of their axes, and `L = I ω` the
 //! angular momentum. Then `dL/dt = -ω × L`. Without torque, the axis of rotation changes unless it is a principal axis.
-//! None of the maps is exact. All but [`SpinMap::Constant`] are
-//! checked against logs of engines (`tests/library/engines/tumble.rs`).
+//! None of the maps is exact. All but [`SpinMap::Constant`] are checked against logs of engines
+//! (`tests/library/engines/tumble.rs`).
 
 use glam::{DMat3, DQuat, DVec3};
 
@@ -118,4 +118,11 @@ pub struct FreeSpin {
     pub opt_in: Option<SpinMap>,
     /// Whether the engine applies its map once a tick; otherwise in each substep.
     pub is_once_a_tick: bool,
+}
+
+impl FreeSpin {
+    /// Creates the card of an engine with one map, which it applies in each substep.
+    pub(super) const fn of(default: SpinMap) -> Self {
+        Self { default, opt_in: None, is_once_a_tick: false }
+    }
 }

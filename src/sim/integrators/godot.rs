@@ -22,11 +22,7 @@ pub(super) const CARD: Method = Method {
             "Engine.physics_ticks_per_second = {hz} # step {n} times with dt / {n}: Godot has no substeps, and whole ticks",
         ),
         // This is the map of Godot's bodies in space.
-        free_spin: Some(FreeSpin {
-            default: SpinMap::Constant,
-            opt_in: None,
-            is_once_a_tick: false,
-        }),
+        free_spin: Some(FreeSpin::of(SpinMap::Constant)),
         version: "4.x",
         logged: None,
         modes: &MODES,

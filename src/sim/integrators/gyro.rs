@@ -68,7 +68,11 @@ pub(super) fn turn_state<V: Vector>(
 
 /// Turns the body by the vector `by` (rad), with its momentum fixed in space.
 pub(super) fn turned(moments: DVec3, omega: DVec3, by: DVec3) -> (DVec3, DQuat) {
-    let turn = turn_by(by);
+    carried(moments, omega, turn_by(by))
+}
+
+/// Turns the body by a quaternion, with its momentum fixed in space.
+pub(super) fn carried(moments: DVec3, omega: DVec3, turn: DQuat) -> (DVec3, DQuat) {
     (seen_from(turn, moments * omega) / moments, turn)
 }
 

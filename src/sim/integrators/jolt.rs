@@ -27,9 +27,8 @@ pub(super) const CARD: Method = Method {
         damping_ratio: Some(0.05219),
         substeps: Substeps::Own,
         free_spin: Some(FreeSpin {
-            default: SpinMap::Constant,
             opt_in: Some(SpinMap::ScaledMomentum),
-            is_once_a_tick: false,
+            ..FreeSpin::of(SpinMap::Constant)
         }),
         version: "5.5.1 main 3b47ec3",
         logged: Some("2026-11-21"),

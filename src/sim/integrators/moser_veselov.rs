@@ -26,7 +26,6 @@ impl GyroRule for MoserVeselov {
             (half - r.cross(moments * r)) / (1.0 - r.length_squared()).sqrt() / moments
         })?;
         let turn = DQuat::from_xyzw(r.x, r.y, r.z, (1.0 - r.length_squared()).sqrt());
-        let turn = turn * (1.0 / turn.length());
-        Ok((seen_from(turn, moments * omega) / moments, turn))
+        Ok(carried(moments, omega, turn * (1.0 / turn.length())))
     }
 }

@@ -34,9 +34,8 @@ pub(super) const CARD: Method = Method {
         damping_ratio: Some(0.0),
         substeps: Substeps::Own,
         free_spin: Some(FreeSpin {
-            default: SpinMap::Explicit,
             opt_in: Some(SpinMap::NewtonStep),
-            is_once_a_tick: false,
+            ..FreeSpin::of(SpinMap::Explicit)
         }),
         version: "4.0.0",
         logged: Some("2026-11-21"),

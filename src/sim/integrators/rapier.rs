@@ -23,11 +23,7 @@ pub(super) const CARD: Method = Method {
         tick_hz: 60,
         damping_ratio: Some(0.01309),
         substeps: Substeps::Own,
-        free_spin: Some(FreeSpin {
-            default: SpinMap::ScaledMomentum,
-            opt_in: None,
-            is_once_a_tick: false,
-        }),
+        free_spin: Some(FreeSpin::of(SpinMap::ScaledMomentum)),
         version: "0.36.1",
         logged: Some("2026-11-21"),
         modes: &MODES,
