@@ -8,9 +8,9 @@ use crate::run::{Run, StartSettings};
 use crate::scene::{LaneSpec, Scene};
 use crate::sim::number::{counted, significant};
 
-/// Maximum number of ticks by which the recording advances at a time. It is an hour at 60 Hz, which takes about a
-/// second to compute.
-const MAX_TICKS: u64 = 60 * 3600;
+/// Maximum number of ticks by which a run beside the person's advances at a time. It is an hour at 60 Hz, which takes
+/// about a second to compute.
+pub(super) const MAX_TICKS: u64 = 60 * 3600;
 
 /// Largest distance that is described in ulps. A larger one is described as a number.
 const FEW_ULPS: u64 = 1000;

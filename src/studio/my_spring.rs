@@ -140,10 +140,7 @@ impl MySpring {
 
     /// Says how far the mass overshoots after a step, and when it has settled.
     pub fn response_in_words(self) -> String {
-        let overshoot = match 100.0 * self.overshoot() {
-            percent if percent < 0.05 => "no overshoot".to_owned(),
-            percent => format!("overshoots {} %", significant(percent, 2)),
-        };
+        let overshoot = overshoot_in_words(self.overshoot());
         match self.settles_s() {
             Some(settles_s) => {
                 let within = round(100.0 * SETTLED, 3);
@@ -245,6 +242,14 @@ impl MySpring {
     /// If a scene may not have these numbers.
     pub fn scene(self, tick_hz: impl Into<TickRate>) -> Result<Scene, SceneErrors> {
         Scene::parse("my-spring", &self.scene_text(tick_hz))
+    }
+}
+
+/// Says how far a mass goes beyond its new rest, as a part of the way.
+pub(super) fn overshoot_in_words(part: f64) -> String {
+    match 100.0 * part {
+        percent if percent < 0.05 => "no overshoot".into(),
+        percent => format!("overshoots {} %", significant(percent, 2)),
     }
 }
 

@@ -1,12 +1,9 @@
 //! The run as it goes on at its former tick rate, beside the run at the new one.
 
-use super::compared::placed_at;
+use super::compared::{MAX_TICKS, placed_at};
 use crate::run::race::{LaneBody, Race};
 use crate::scene::LaneId;
 use crate::sim::TickRate;
-
-/// Maximum number of ticks by which the run advances at a time.
-const MAX_TICKS: u64 = 60 * 3600;
 
 /// A run as it was before the tick rate changed, and as it goes on without the change.
 pub struct RunBeside {

@@ -2,10 +2,9 @@
 
 use std::iter;
 
-use super::my_spring::MySpring;
+use super::my_spring::{MySpring, overshoot_in_words};
 use crate::sim::bodies::Spring;
 use crate::sim::integrators::method;
-use crate::sim::number::significant;
 use crate::sim::{Solver, TickRate, stepper};
 
 /// Tick rates in Hz that a game is likely to meet.
@@ -16,7 +15,7 @@ const POINTS: usize = 240;
 const MOST_PERIODS: f64 = 6.0;
 const FEWEST_PERIODS: f64 = 0.75;
 const MOST_TICKS: f64 = 20_000.0;
-/// A place from which no swing of the person's spring comes back.
+/// A place that a mass passes only if its swing grows.
 const LOST: f64 = 3.0;
 
 /// The places of a mass over time, where it begins at 0 and rests at 1.
@@ -39,11 +38,7 @@ impl StepResponse {
     /// Says how far the mass goes beyond its rest.
     pub fn in_words(&self) -> String {
         let furthest = self.places.iter().fold(0.0_f64, |most, place| most.max(place.abs()));
-        match 100.0 * (furthest - 1.0) {
-            _ if furthest > LOST => "blows up".into(),
-            percent if percent < 0.05 => "no overshoot".into(),
-            percent => format!("overshoots {} %", significant(percent, 2)),
-        }
+        if furthest > LOST { "blows up".into() } else { overshoot_in_words(furthest - 1.0) }
     }
 }
 
