@@ -5,6 +5,7 @@
 //! line keeps the energy, 0.5 where it puts the ball on the floor, and 1 where it mirrors the place.
 
 use super::Rule;
+use crate::sim::law::StepRegisters;
 
 /// Duration of the first fall in seconds, which is that from 1 m on Earth.
 const FALL_S: f64 = 0.451_523_640_985_730_9;
@@ -115,12 +116,15 @@ impl Rule {
     }
 
     /// Returns the place and the velocity after a frame.
-    fn frame_of(&self, [x, v]: [f64; 2], fps: f64) -> [f64; 2] {
-        let mut registers = self.text.registers();
-        self.text.set(&mut registers, 0, x);
-        self.text.set(&mut registers, 1, v);
-        self.text.step(&mut registers, self.step_length(fps), 0.0);
-        [0, 1].map(|index| self.text.value(&registers, index))
+    fn frame_of(&self, state: [f64; 2], fps: f64) -> [f64; 2] {
+        self.next_frame(&mut self.text.registers(), state, fps)
+    }
+
+    fn next_frame(&self, registers: &mut StepRegisters, [x, v]: [f64; 2], fps: f64) -> [f64; 2] {
+        self.text.set(registers, 0, x);
+        self.text.set(registers, 1, v);
+        self.text.step(registers, self.step_length(fps), 0.0);
+        [0, 1].map(|index| self.text.value(registers, index))
     }
 
     /// Returns the free fall of the rule, if it has one.
@@ -170,8 +174,9 @@ impl Rule {
     fn apexes(&self, start: [f64; 2], side: f64, fps: f64) -> [Option<f64>; 3] {
         let mut found = AFTER.map(|_| None);
         let (mut state, mut flight, mut impacts) = (start, vec![side * start[0]], 0);
+        let mut registers = self.text.registers();
         for _ in 0..MAX_FRAMES {
-            let next = self.frame_of(state, fps);
+            let next = self.next_frame(&mut registers, state, fps);
             if !next.iter().all(|number| number.is_finite()) {
                 break;
             }
