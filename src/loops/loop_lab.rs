@@ -38,9 +38,7 @@ pub const SLOWNESS: [u32; 6] = [1, 2, 4, 8, 16, 32];
 pub const SLOWNESS_AT_FIRST: u32 = 8;
 /// The raw loop with a clock in floats, which runs beside the others where rounding decides on its ticks.
 static IN_FLOATS: LazyLock<&PolicyCard> = LazyLock::new(|| {
-    let lines = "# name: Fixed, in floats\n# gives: a while loop over a clock in floats\n\
-                 # caveat: as its lines say\n# users: many games\n# known: an accumulator as people write it\n\
-                 memory owed = 0\nowed += dt\nwhile owed >= H { tick 1; owed -= H }\n";
+    let lines = include_str!("../../assets/loops/fixed-in-floats.loop");
     own_loop("fixed-in-floats", lines).expect("lines that a test runs")
 });
 /// Refresh rate of a trace that names none.
