@@ -206,6 +206,15 @@ impl Desk {
         });
     }
 
+    /// Waits for a window that moves by itself, which is never still, to have drawn some frames from now on.
+    #[track_caller]
+    pub(crate) fn some_frames(&self) {
+        for _ in 0..4 {
+            let before = self.sight();
+            until("another frame", || (self.sight() != before).then_some(()));
+        }
+    }
+
     /// Presses a key, and waits for something to change in a paused window.
     #[track_caller]
     pub(crate) fn press_and_see(&self, key: &str) {

@@ -178,10 +178,12 @@ pub(crate) fn a_typed_spring_is_advised_on_and_remembered() {
     ] {
         assert!(told.contains(&line), "no {line} in {told}");
     }
-    // By keys alone: the first number has the focus, and Enter after the last accepts.
+    // By keys alone: the first number has the focus, and Enter after the last accepts. The spring of the dialog swings.
     desk.press("space");
-    for key in ["s", "3", "Return", "Return"] {
-        desk.still();
+    desk.still();
+    desk.press("s");
+    for key in ["3", "Return", "Return"] {
+        desk.some_frames();
         desk.press(key);
     }
     until("a run", || (!desk.title().contains("paused")).then_some(()));
