@@ -26,6 +26,9 @@ a function a(x, v) for the acceleration. A method with memory takes its memory t
 position of its target and a rate, and an engine the settings of its joint and its body. The comment
 above the function has the details.
 
+A gyroscopic method, such as split-3, takes the angular velocity, the attitude as the four numbers of a
+quaternion, the moments and the step.
+
 A loop is a type made for a tick rate, and one function: once a frame it calls your step for each tick,
 and returns the moment to draw. The loops of engines (regatta list engine-loops) and of your own have
 it too, and without --as you see their lines.
@@ -35,6 +38,7 @@ Examples:
   regatta show semi-implicit-euler --as csharp --float
   regatta show bdf2 --as c > bdf2.h
   regatta show my.step --as cpp
+  regatta show split-3 --as csharp        a step of a body that turns in space
   regatta show bdf2 --as step > my-bdf2.step
   regatta show fixed-linear --as cpp
   regatta show bevy --as csharp

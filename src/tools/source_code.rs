@@ -1,5 +1,6 @@
 //! Prints methods and game loops as source code for a game, in each of six languages. For a method, it is one function
-//! of `x`, `v` and the step `h`; for a loop, a type that makes the ticks of a frame.
+//! of `x`, `v` and the step `h`, or of an angular velocity and an attitude as a quaternion; for a loop, a type that makes the
+//! ticks of a frame.
 //!
 //! A method is written once, in `assets/methods`, in the language in which a person writes a step of their own; see
 //! [`StepText`]. The printer translates its lines one by one with the table of dialects, and makes the header from the
@@ -37,7 +38,11 @@ impl MethodSource {
     /// Reads the lines of a method, which are on its [card](Method::code) or a person's own; `None` if it has none.
     pub fn of(method: &Method) -> Option<Self> {
         let text = method.own_text().unwrap_or(method.code);
-        if text.is_empty() { None } else { StepText::read(text).ok().map(Self) }
+        match method.is_for_spin() {
+            true => StepText::read_spin(text).ok().map(Self),
+            false if text.is_empty() => None,
+            false => StepText::read(text).ok().map(Self),
+        }
     }
 
     /// Returns the function's inputs besides `x`, `v` and `h`.
@@ -207,10 +212,7 @@ fn printable(
 ) -> Result<StepText, NoSourceCode> {
     let refused =
         |reason: &str| NoSourceCode { method: method.id, language, reason: reason.to_owned() };
-    let no_lines = match method.is_for_spin() {
-        true => "it turns a body by vectors and quaternions, which its lines cannot have yet",
-        false => "it is a custom method, whose code is where it was made",
-    };
+    let no_lines = "it is a custom method, whose code is where it was made";
     let MethodSource(text) = MethodSource::of(method).ok_or_else(|| refused(no_lines))?;
     let of_language = format!("refused {}", language.id());
     let claims = [&*of_language, "refused"].into_iter().find_map(|claim| text.claim(claim));

@@ -37,6 +37,7 @@ mod paths;
 mod plain;
 mod powers;
 mod reader;
+mod spin;
 mod statements;
 mod tree;
 

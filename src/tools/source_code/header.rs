@@ -1,7 +1,7 @@
 //! The comment above a method's function, with the description and the limits of the method, from its card.
 
 use super::dialect::Language;
-use super::printer::{rates, shows, takes_function};
+use super::printer::{rates, shows, takes_function, takes_moments};
 use crate::sim::integrators::{Engine, Family, Method};
 use crate::sim::law::{LoopText, MethodInput, StepBody, StepText};
 
@@ -13,6 +13,9 @@ const SOLVERS: [&str; 2] = ["slope", "solve"];
 
 /// Returns the lines of the comment above a method's function.
 pub(super) fn lines(method: &Method, text: &StepText, language: Language) -> Vec<String> {
+    if text.is_spin() {
+        return of_spin(method, text, language);
+    }
     let claim = |id: &str, general: String| text.claim(id).map_or(general, Into::into);
     let (order, stability) =
         (claim("order", order(method)), claim("stability", stability(method, text)));
@@ -60,6 +63,36 @@ pub(super) fn lines(method: &Method, text: &StepText, language: Language) -> Vec
         ));
     }
     paragraphs.push(answer(language, text));
+    paragraphs.iter().flat_map(|paragraph| wrapped(paragraph)).collect()
+}
+
+/// Returns the lines of the comment above the step of a free spin.
+fn of_spin(method: &Method, text: &StepText, language: Language) -> Vec<String> {
+    let mut paragraphs = vec![
+        format!("{} ({}): {}.", method.name, method.id, method.about),
+        format!("Source: {}.", method.source),
+        String::new(),
+    ];
+    paragraphs.extend(method.formula.iter().map(|line| (*line).to_owned()));
+    paragraphs.push(String::new());
+    paragraphs.push(format!("Order: {}. Reversible: {}.", order(method), yes(method.reversible)));
+    paragraphs.extend(text.notes().iter().cloned());
+    paragraphs.push(String::new());
+    paragraphs.push("wx, wy, wz: the angular velocity ω in the frame of the body, in rad/s.".into());
+    paragraphs.push("qw, qx, qy, qz: the attitude, a quaternion from that frame to the world.".into());
+    if takes_moments(text.body()) {
+        let moments = "i1, i2, i3: the principal moments I about its axes, in kg m² or any unit; L = I ω.";
+        paragraphs.push(moments.into());
+    }
+    paragraphs.push("h: the step, in seconds.".into());
+    let answer = match language {
+        Language::Rust | Language::JavaScript => "Returns the new angular velocity and attitude.",
+        Language::C => "Replaces w, which is wx, wy, wz, and q, which is qw, qx, qy, qz.",
+        Language::CSharp => "Replaces the angular velocity and the attitude.",
+        Language::GdScript => "Returns [wx, wy, wz, qw, qx, qy, qz].",
+        Language::Lua => "Returns the new wx, wy, wz, qw, qx, qy and qz.",
+    };
+    paragraphs.push(answer.into());
     paragraphs.iter().flat_map(|paragraph| wrapped(paragraph)).collect()
 }
 
@@ -172,6 +205,7 @@ fn order(method: &Method) -> String {
     let Method { order, order_with_drag, .. } = *method;
     match (order, method.family) {
         (0, _) => "0, it does not converge".into(),
+        (_, Family::Gyro) => order.to_string(),
         (_, Family::Follower) => format!("{order}, while the target moves evenly"),
         (2.., Family::Engine) => {
             format!("{order} on a joint, with drag too; 1 for a force of yours that changes")

@@ -7,9 +7,11 @@ use crate::sim::law::{Level, Line, MethodInput, StepBody, StepText};
 use crate::sim::text::hides_or_breaks;
 
 mod game_loop;
+mod spin;
 
 use game_loop::returns_shown;
 pub(super) use game_loop::{print_loop, rates, shows};
+pub(super) use spin::takes_moments;
 
 /// Maximum length of a line, in characters. A longer line is broken at its commas.
 const LINE_CHARS: usize = 100;
@@ -151,7 +153,10 @@ impl Printer {
             }
             self.print_function(file.names(body));
         }
-        self.print_step(file, &pascal);
+        match file.text.is_spin() {
+            true => self.print_spin(file),
+            false => self.print_step(file, &pascal),
+        }
         if self.language == Language::CSharp {
             self.depth -= 1;
             self.push_lines(&["}"]);

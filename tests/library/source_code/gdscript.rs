@@ -8,10 +8,10 @@ use regatta::sim::integrators::{METHODS, method};
 use regatta::tools::source_code::{Language, Precision, source_code};
 
 /// The functions and words of GDScript that may be used without a declaration.
-const KNOWN: [&str; 25] = [
+const KNOWN: [&str; 27] = [
     "static", "func", "class", "float", "int", "Callable", "Array", "call", "var", "const", "if",
     "else", "while", "return", "and", "or", "NAN", "is_nan", "absf", "minf", "maxf", "sqrt", "pow",
-    "exp", "ceil",
+    "exp", "ceil", "sin", "cos",
 ];
 
 /// The first fault of a file.

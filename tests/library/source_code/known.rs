@@ -140,7 +140,8 @@ pub(crate) fn steps_as(stepped: &Method, like: &Method, case: &Case) -> Vec<[f64
         .collect()
 }
 
-/// The methods of the table, each with its source. Those of a free rotation have none.
+/// The methods of the table, each with its source. Those of a free rotation step
+/// another state.
 pub(crate) fn sources() -> impl Iterator<Item = (&'static Method, MethodSource)> {
     METHODS
         .iter()

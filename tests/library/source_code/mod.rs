@@ -9,5 +9,6 @@ mod gdscript;
 mod held;
 pub(crate) mod known;
 mod scripts;
+mod spin;
 mod text;
 mod words;

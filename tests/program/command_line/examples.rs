@@ -28,7 +28,7 @@ const BLOCKS: [(&str, &str, usize); 20] = [
     ("loops", "sh", 1),
     ("logs", "console", 1),
     ("questions", "console", 18),
-    ("code", "console", 1),
+    ("code", "console", 2),
     ("step", "console", 5),
     ("library", "rust", 2),
     ("library", "text", 1),

@@ -1,6 +1,7 @@
 //! The tree of the lines of a game loop, as a printer reads it.
 
 use super::reader::{COST, COUNT, FIRST, FRAME_NAMES, LENGTH, NOW, REFRESH, SECOND, SHOWN};
+use super::spin::SPIN_NAMES;
 use super::{H, Line, StepBody, StepText, TARGET};
 use crate::sim::law::expression::Expression;
 
@@ -84,7 +85,11 @@ impl<'t> StepBody<'t> {
 
     /// The last name that has a value before any line.
     pub(super) fn last_told(self) -> usize {
-        if self.is_loop() { SHOWN } else { TARGET }
+        match (self.is_loop(), self.text.is_spin()) {
+            (true, _) => SHOWN,
+            (_, true) => SPIN_NAMES.len() - 1,
+            _ => TARGET,
+        }
     }
 
     /// Whether a game loop keeps this name from frame to frame, though it is no memory of the lines.

@@ -7,6 +7,7 @@ use functions::end_of;
 
 use super::method::{Array, Function as OwnFunction, Machine, Taken};
 use super::paths::{SMOOTH_DAMP, damped_velocity};
+use super::spin::SPIN_NAMES;
 use super::statements::Statement;
 use super::{BUILT_IN, Carried, H, Line, OTHER_NAMES, STEP_NAMES, StepText, TARGET, V, X};
 use crate::sim::law::expression::{Expression, Node, Scope, parse, parse_condition};
@@ -188,14 +189,24 @@ impl<'t> Reader<'t> {
     pub(super) fn read_loop(text: &'t str, all: &[Statement]) -> Parsed<StepText> {
         let mut reader = Self::new(text, Some(0..0), Vec::new());
         reader.is_loop = true;
-        for name in FRAME_NAMES {
-            reader.add_name(name, true);
-        }
-        reader.values.fill(Some(0));
-        reader.carried = vec![X, V];
-        reader.read_inputs(all)?;
-        reader.read_all(all)?;
-        reader.finish()
+        reader.read_told(&FRAME_NAMES, all)
+    }
+
+    /// Reads the lines of a step of a free spin.
+    pub(super) fn read_spin(text: &'t str, all: &[Statement]) -> Parsed<StepText> {
+        let mut reader = Self::new(text, Some(0..0), Vec::new());
+        reader.is_function = true;
+        reader.read_told(&SPIN_NAMES, all)
+    }
+
+    /// Reads lines that are told these names.
+    fn read_told(mut self, names: &[&str], all: &[Statement]) -> Parsed<StepText> {
+        names.iter().for_each(|name| self.add_name(name, true));
+        self.values.fill(Some(0));
+        self.carried = vec![X, V];
+        self.read_inputs(all)?;
+        self.read_all(all)?;
+        self.finish()
     }
 
     fn new(text: &'t str, method_at: Option<Range<usize>>, functions: Vec<OwnFunction>) -> Self {
