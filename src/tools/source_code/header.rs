@@ -68,31 +68,38 @@ pub(super) fn lines(method: &Method, text: &StepText, language: Language) -> Vec
 
 /// Returns the lines of the comment above the step of a free spin.
 fn of_spin(method: &Method, text: &StepText, language: Language) -> Vec<String> {
+    let claims = format!("Order: {}. Reversible: {}.", order(method), yes(method.reversible));
     let mut paragraphs = vec![
         format!("{} ({}): {}.", method.name, method.id, method.about),
         format!("Source: {}.", method.source),
-        String::new(),
     ];
-    paragraphs.extend(method.formula.iter().map(|line| (*line).to_owned()));
-    paragraphs.push(String::new());
-    paragraphs.push(format!("Order: {}. Reversible: {}.", order(method), yes(method.reversible)));
-    paragraphs.extend(text.notes().iter().cloned());
-    paragraphs.push(String::new());
-    paragraphs.push("wx, wy, wz: the angular velocity ω in the frame of the body, in rad/s.".into());
-    paragraphs.push("qw, qx, qy, qz: the attitude, a quaternion from that frame to the world.".into());
+    let mut add = |lines: &[&str]| paragraphs.extend(lines.iter().map(|line| (*line).to_owned()));
+    add(&[""]);
+    add(method.formula);
+    add(&[
+        "",
+        &claims,
+        "",
+        "wx, wy, wz: the angular velocity ω in the frame of the body, in rad/s.",
+        "qw, qx, qy, qz: the attitude, a quaternion from that frame to the world.",
+    ]);
     if takes_moments(text.body()) {
-        let moments = "i1, i2, i3: the principal moments I about its axes, in kg m² or any unit; L = I ω.";
-        paragraphs.push(moments.into());
+        add(&[
+            "i1, i2, i3: the principal moments I about its axes, in kg m² or any unit; L = I ω.",
+        ]);
     }
-    paragraphs.push("h: the step, in seconds.".into());
-    let answer = match language {
-        Language::Rust | Language::JavaScript => "Returns the new angular velocity and attitude.",
-        Language::C => "Replaces w, which is wx, wy, wz, and q, which is qw, qx, qy, qz.",
-        Language::CSharp => "Replaces the angular velocity and the attitude.",
-        Language::GdScript => "Returns [wx, wy, wz, qw, qx, qy, qz].",
-        Language::Lua => "Returns the new wx, wy, wz, qw, qx, qy and qz.",
-    };
-    paragraphs.push(answer.into());
+    add(&[
+        "h: the step, in seconds.",
+        match language {
+            Language::Rust | Language::JavaScript => {
+                "Returns the new angular velocity and attitude."
+            }
+            Language::C => "Replaces w, which is wx, wy, wz, and q, which is qw, qx, qy, qz.",
+            Language::CSharp => "Replaces the angular velocity and the attitude.",
+            Language::GdScript => "Returns [wx, wy, wz, qw, qx, qy, qz].",
+            Language::Lua => "Returns the new wx, wy, wz, qw, qx, qy and qz.",
+        },
+    ]);
     paragraphs.iter().flat_map(|paragraph| wrapped(paragraph)).collect()
 }
 

@@ -167,9 +167,9 @@ const DRIVERS: [Driver; 5] = [
         language: Language::CSharp,
         file: "driver.cs",
         each: "CODE",
-        call: "{ NUMBER[] w = { W }, q = { Q }, i = { I }; for (int n = 0; n < STEPS; n++) { PASCAL.Step(ref w[0], ref w[1], \
+        call: "{ NUMBER[] w = { W }, q = { Q }; for (int n = 0; n < STEPS; n++) { PASCAL.Step(ref w[0], ref w[1], \
                ref w[2], ref q[0], ref q[1], ref q[2], ref q[3]MOMENTS, H); Show(q[0], q[1], q[2], q[3], w[0], w[1], w[2]); } }",
-        moments: ", i[0], i[1], i[2]",
+        moments: ", I",
         whole: "using System;\nFUNCTIONS\npublic static class Driver\n{\nstatic void Show(params double[] all)\n{\n\
                 string[] words = Array.ConvertAll(all, x => BitConverter.DoubleToInt64Bits(x).ToString(\"x16\"));\n\
                 Console.WriteLine(string.Join(\" \", words));\n}\npublic static void Main()\n{\nCALLS}\n}\n",
@@ -304,9 +304,9 @@ impl Driver {
     }
 }
 
-/// The largest difference of a printed step after 240, relative to the largest part: sines and cosines of other
-/// libraries differ in the last bit, and the middle axis makes more of it.
-const ROUNDING: [f64; 2] = [2e-13, 5e-3];
+/// The largest difference after 240 printed steps with a sine, relative to the largest part: those of other libraries
+/// differ in the last bit, and the middle axis makes more of it. In double precision, the others have equal bits.
+const ROUNDING: [f64; 2] = [3e-14, 5e-4];
 
 #[test]
 fn printed_steps_of_a_spin_match_the_methods() {
@@ -335,7 +335,9 @@ fn printed_steps_of_a_spin_match_the_methods() {
                             }
                         }
                     }
-                    let allowed = ROUNDING[precision as usize];
+                    let has_sine = method.code.contains("half_sine");
+                    let is_equal = precision == Precision::Double && !has_sine;
+                    let allowed = if is_equal { 0.0 } else { ROUNDING[precision as usize] };
                     if !worst.iter().all(|off| *off <= allowed) {
                         let language = driver.language;
                         wrong.push(format!(
