@@ -103,7 +103,7 @@ fn every_example_with_an_answer_prints_that_answer() {
         ("commands", 4),
         ("logs", 1),
         ("questions", 24),
-        ("code", 1),
+        ("code", 2),
         ("step", 3),
         ("README", 1),
         ("SKILL", 10),
