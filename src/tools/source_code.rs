@@ -1,5 +1,5 @@
 //! Prints methods and game loops as source code for a game, in each of six languages. For a method, it is one function
-//! of `x`, `v` and the step `h`, or of an angular velocity and an attitude as a quaternion; for a loop, a type that makes the
+//! of `x`, `v` and the step `h`, or of an angular velocity, an attitude and `h`. For a loop, it is a type that makes the
 //! ticks of a frame.
 //!
 //! A method is written once, in `assets/methods`, in the language in which a person writes a step of their own; see

@@ -1,7 +1,8 @@
 //! The tree of the lines of a game loop, as a printer reads it.
 
-use super::reader::{COST, COUNT, FIRST, FRAME_NAMES, LENGTH, NOW, REFRESH, SECOND, SHOWN};
-use super::spin::SPIN_NAMES;
+use super::reader::{
+    COST, COUNT, FIRST, FRAME_NAMES, LENGTH, NOW, REFRESH, SECOND, SHOWN, SPIN_NAMES,
+};
 use super::{H, Line, StepBody, StepText, TARGET};
 use crate::sim::law::expression::Expression;
 

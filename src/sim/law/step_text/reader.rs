@@ -4,10 +4,10 @@ use std::ops::Range;
 
 pub(super) use frames::{COST, COUNT, FIRST, FRAME_NAMES, LENGTH, NOW, REFRESH, SECOND, SHOWN};
 use functions::end_of;
+pub(super) use spin::SPIN_NAMES;
 
 use super::method::{Array, Function as OwnFunction, Machine, Taken};
 use super::paths::{SMOOTH_DAMP, damped_velocity};
-use super::spin::SPIN_NAMES;
 use super::statements::Statement;
 use super::{BUILT_IN, Carried, H, Line, OTHER_NAMES, STEP_NAMES, StepText, TARGET, V, X};
 use crate::sim::law::expression::{Expression, Node, Scope, parse, parse_condition};
@@ -20,6 +20,7 @@ use crate::sim::law::token::is_name_part;
 mod assignment;
 mod frames;
 mod functions;
+mod spin;
 mod values;
 
 /// The maximum number of names of a text. It is so small that the bits of one word can represent a set of names.
@@ -183,30 +184,6 @@ impl<'t> Reader<'t> {
             }
         }
         Ok(())
-    }
-
-    /// Reads the lines of a game loop.
-    pub(super) fn read_loop(text: &'t str, all: &[Statement]) -> Parsed<StepText> {
-        let mut reader = Self::new(text, Some(0..0), Vec::new());
-        reader.is_loop = true;
-        reader.read_told(&FRAME_NAMES, all)
-    }
-
-    /// Reads the lines of a step of a free spin.
-    pub(super) fn read_spin(text: &'t str, all: &[Statement]) -> Parsed<StepText> {
-        let mut reader = Self::new(text, Some(0..0), Vec::new());
-        reader.is_function = true;
-        reader.read_told(&SPIN_NAMES, all)
-    }
-
-    /// Reads lines that are told these names.
-    fn read_told(mut self, names: &[&str], all: &[Statement]) -> Parsed<StepText> {
-        names.iter().for_each(|name| self.add_name(name, true));
-        self.values.fill(Some(0));
-        self.carried = vec![X, V];
-        self.read_inputs(all)?;
-        self.read_all(all)?;
-        self.finish()
     }
 
     fn new(text: &'t str, method_at: Option<Range<usize>>, functions: Vec<OwnFunction>) -> Self {

@@ -1,20 +1,16 @@
 //! The lines of a step of a body that turns freely in space.
 //!
-//! They read and change the attitude `qw`, `qx`, `qy`, `qz`, a quaternion from the frame of the body to the world, and the
-//! angular velocity `wx`, `wy`, `wz` in that frame, in rad/s. They read the principal moments `i1`, `i2`, `i3` and the
-//! length of the step `h`. They are read like those of a function, so that every other name needs a value first.
+//! They change the attitude `qw`, `qx`, `qy`, `qz`, which is a quaternion from the frame of the body to the world. They
+//! change the angular velocity `wx`, `wy`, `wz` in that frame too, in rad/s. They read the principal moments `i1`, `i2`,
+//! `i3` and the length of the step `h`.
 
 use std::slice;
 
 use super::plain::plain;
-use super::reader::Reader;
+use super::reader::{Reader, SPIN_NAMES};
 use super::statements::statements;
 use super::{H, StepRegisters, StepText};
 use crate::sim::law::fault::ExpressionFault;
-
-/// The names of every such step. The first three have the slots of `x`, `v` and `h` of other steps.
-pub(super) const SPIN_NAMES: [&str; 11] =
-    ["qw", "qx", "h", "qy", "qz", "wx", "wy", "wz", "i1", "i2", "i3"];
 
 impl StepText {
     /// Parses the lines of a step of a free spin.

@@ -8,7 +8,7 @@ use crate::sim::law::fault::{Parsed, fault, quoted};
 use crate::sim::law::op::Op;
 use crate::sim::law::step_text::method::{Array, Taken};
 use crate::sim::law::step_text::statements::Statement;
-use crate::sim::law::step_text::{H, Line, TARGET, V, X};
+use crate::sim::law::step_text::{H, Line, StepText, TARGET, V, X};
 
 /// The names of every loop. The first four have the slots of a step: the ticks of the frame so far, their time, the
 /// duration of the frame, and the length of a tick. Those with a space are for `tick` and `show`.
@@ -45,6 +45,25 @@ fn product(names: &[usize]) -> Expression {
         nodes.push(Node::new(Op::Multiply, &[0, 1]));
     }
     Expression { spans: vec![0..0; nodes.len()], nodes, tables: Vec::new() }
+}
+
+impl<'t> Reader<'t> {
+    /// Reads the lines of a game loop.
+    pub(in super::super) fn read_loop(text: &'t str, all: &[Statement]) -> Parsed<StepText> {
+        let mut reader = Self::new(text, Some(0..0), Vec::new());
+        reader.is_loop = true;
+        reader.read_named(&FRAME_NAMES, all)
+    }
+
+    /// Reads lines that are given numbers with these names.
+    pub(super) fn read_named(mut self, names: &[&str], all: &[Statement]) -> Parsed<StepText> {
+        names.iter().for_each(|name| self.add_name(name, true));
+        self.values.fill(Some(0));
+        self.carried = vec![X, V];
+        self.read_inputs(all)?;
+        self.read_all(all)?;
+        self.finish()
+    }
 }
 
 impl Reader<'_> {
