@@ -1,6 +1,6 @@
 //! Prints methods and game loops as source code for a game, in each of six languages. For a method, it is one function
-//! of `x`, `v` and the step `h`, or of an angular velocity, an attitude and `h`. For a loop, it is a type that makes the
-//! ticks of a frame.
+//! of `x`, `v` and the step `h`, or of an angular velocity, an attitude and `h`. For a loop, it is a type that makes
+//! the ticks of a frame.
 //!
 //! A method is written once, in `assets/methods`, in the language in which a person writes a step of their own; see
 //! [`StepText`]. The printer translates its lines one by one with the table of dialects, and makes the header from the

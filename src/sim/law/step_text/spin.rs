@@ -1,8 +1,8 @@
 //! The lines of a step of a body that turns freely in space.
 //!
 //! They change the attitude `qw`, `qx`, `qy`, `qz`, which is a quaternion from the frame of the body to the world. They
-//! change the angular velocity `wx`, `wy`, `wz` in that frame too, in rad/s. They read the principal moments `i1`, `i2`,
-//! `i3` and the length of the step `h`.
+//! change the angular velocity `wx`, `wy`, `wz` in that frame too, in rad/s. They read the principal moments `i1`,
+//! `i2`, `i3` and the length of the step `h`.
 
 use std::slice;
 
