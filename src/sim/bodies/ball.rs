@@ -3,7 +3,7 @@
 //! The true impacts under gravity are a geometric series, so that any of them is known without those before it. With
 //! drag each flight is solved in turn.
 
-use std::cell::Cell;
+use std::cell::RefCell;
 
 use super::prelude::*;
 use crate::sim::impact::Wall;
@@ -55,9 +55,25 @@ const PARAMETERS: [Of; 7] = [
 /// √k of a soft wall, in radians per second, at 4.77 Hz.
 const SOFT: f64 = 30.0;
 
-/// The largest number of flights that a truth follows one by one from one moment to the next. After more flights the
-/// state is not known.
-const MAX_FLIGHTS: u32 = 20_000;
+/// The largest number of flights that a truth follows one by one. After more flights the state is not known: under drag
+/// alone their number grows exponentially with time.
+const MAX_FLIGHTS: u32 = 40_000;
+
+/// A bounce with less than this speed, in g/c, is computed by [`FLIGHT`].
+const SLOW: f64 = 0.01;
+
+/// The duration of a flight from the floor with the speed z, in units of z, by powers of z: the root x of
+/// (1 + z) (1 - e⁻ˣ) = x. Speeds are in g/c, and times in 1/c. The next power is less than a rounding below [`SLOW`].
+const FLIGHT: [f64; 8] = [
+    2.0,
+    -2.0 / 3.0,
+    4.0 / 9.0,
+    -44.0 / 135.0,
+    104.0 / 405.0,
+    -40.0 / 189.0,
+    7648.0 / 42525.0,
+    -2848.0 / 18225.0,
+];
 
 /// A flight shorter than this, in seconds, ends the bouncing.
 const SHORTEST_FLIGHT_S: f64 = 1e-9;
@@ -85,9 +101,10 @@ pub struct Ball {
     pub walk: Walk,
 }
 
-/// The last impact of a walk from flight to flight, so that the next moment need not begin at the first.
+/// The last impacts of a walk from flight to flight, one for each number of zeros at which the binary count of flights
+/// ends, so that a moment a few flights earlier or later costs few flights.
 #[derive(Clone, Debug, Default)]
-pub struct Walk(Cell<Flights>);
+pub struct Walk(RefCell<[Flights; 17]>);
 
 impl PartialEq for Walk {
     /// Balls that differ only in their memory are equal.
@@ -104,6 +121,8 @@ struct Flights {
     t: [f64; 2],
     /// The state right after the last impact, or at the start.
     at: [f64; 2],
+    /// The number of flights before that.
+    flights: u32,
     /// Whether the flights have become too short to follow.
     rests: bool,
 }
@@ -216,31 +235,55 @@ impl Ball {
         self.fly([0.0, power * e * v1], time.max(0.0))
     }
 
+    /// Returns the last remembered impact of the flights from this state that is before what is looked for, or else their
+    /// start.
+    fn resumed(&self, from: [f64; 2], is_before: impl Fn(&Flights) -> bool) -> Flights {
+        let begun = [from[0], from[1], self.gravity, self.drag, self.restitution];
+        let known = self.walk.0.borrow();
+        let before = known.iter().filter(|known| known.from == begun && is_before(known));
+        let last = before.max_by_key(|known| known.flights).copied();
+        last.unwrap_or(Flights { from: begun, at: from, ..Flights::default() })
+    }
+
+    /// Returns how long the flight from a state at or above the floor lasts, in seconds, and the speed at its end.
+    fn flight(&self, at: [f64; 2]) -> [f64; 2] {
+        let slow = self.drag * at[1] / self.gravity;
+        if at[0] == 0.0 && 0.0 < slow && slow < SLOW {
+            let ratio = FLIGHT.iter().rev().fold(0.0, |sum, factor| factor + slow * sum);
+            return [ratio * at[1] / self.gravity, at[1] * (ratio - 1.0)];
+        }
+        let flight_s = self.fall_s(at);
+        [flight_s, -self.fly(at, flight_s)[1]]
+    }
+
+    /// Walks on by a flight, and remembers its end.
+    fn land(&self, walk: &mut Flights, [flight, speed]: [f64; 2]) {
+        let up = self.restitution * speed;
+        // The rounding of each sum is carried along.
+        let [t, lost] = walk.t;
+        let next = t + (flight + lost);
+        walk.t = [next, (flight + lost) - (next - t)];
+        walk.at = [0.0, up];
+        walk.flights += 1;
+        walk.rests = 2.0 * up < self.gravity * SHORTEST_FLIGHT_S;
+        self.walk.0.borrow_mut()[walk.flights.trailing_zeros().min(16) as usize] = *walk;
+    }
+
     /// Returns the state `dt` (s) after `from` above a floor, flight by flight, unless there are too many flights.
     fn dragged(&self, from: [f64; 2], dt: f64) -> Option<[f64; 2]> {
-        let begun = [from[0], from[1], self.gravity, self.drag, self.restitution];
-        let mut walk = self.walk.0.get();
-        if walk.from != begun || dt < walk.t[0] {
-            walk = Flights { from: begun, at: from, ..Flights::default() };
-        }
-        let mut found = None;
-        for _ in 0..MAX_FLIGHTS {
+        let mut walk = self.resumed(from, |walk| walk.t[0] <= dt);
+        while walk.flights < MAX_FLIGHTS {
             let left = (dt - walk.t[0]) - walk.t[1];
-            let flight = if walk.rests { f64::INFINITY } else { self.fall_s(walk.at) };
-            if left < flight {
-                found = Some(if walk.rests { [0.0; 2] } else { self.fly(walk.at, left.max(0.0)) });
-                break;
+            if walk.rests {
+                return Some([0.0; 2]);
             }
-            let up = -self.restitution * self.fly(walk.at, flight)[1];
-            // The rounding of each sum is carried along.
-            let [t, lost] = walk.t;
-            let next = t + (flight + lost);
-            walk.t = [next, (flight + lost) - (next - t)];
-            walk.at = [0.0, up];
-            walk.rests = 2.0 * up < self.gravity * SHORTEST_FLIGHT_S;
+            let flight = self.flight(walk.at);
+            if left < flight[0] {
+                return Some(self.fly(walk.at, left.max(0.0)));
+            }
+            self.land(&mut walk, flight);
         }
-        self.walk.0.set(walk);
-        found
+        None
     }
 
     /// Returns the state `dt` (s) after `from` between two walls, without forces, unless there are too many flights.
@@ -338,7 +381,7 @@ impl Body for Ball {
 
     fn bounce(&self, from: &State<f64>, impact: u64) -> Option<[f64; 2]> {
         let (g, e) = (self.gravity, self.restitution);
-        let mut at = [from.q.max(0.0), from.v];
+        let at = [from.q.max(0.0), from.v];
         if self.ceiling > 0.0 {
             let to_wall = if from.v > 0.0 { self.ceiling - at[0] } else { at[0] };
             let way = to_wall + self.ceiling * impact.saturating_sub(1) as f64;
@@ -353,16 +396,13 @@ impl Body for Ball {
             return Some([0.0, self.fly(at, up(at[1].max(0.0)))[0]]);
         }
         if self.drag > 0.0 {
-            let mut t = 0.0;
-            for _ in 0..impact {
-                let flight = self.fall_s(at);
-                if t > 0.0 && flight < SHORTEST_FLIGHT_S {
-                    return None;
-                }
-                t += flight;
-                at = [0.0, -e * self.fly(at, flight)[1]];
+            let mut walk = self.resumed(at, |walk| u64::from(walk.flights) <= impact);
+            while u64::from(walk.flights) < impact && !walk.rests && walk.flights < MAX_FLIGHTS {
+                let flight = self.flight(walk.at);
+                self.land(&mut walk, flight);
             }
-            return Some([t, self.fly(at, up(at[1]))[0]]);
+            let is_there = u64::from(walk.flights) == impact;
+            return is_there.then(|| [walk.t[0], self.fly(walk.at, up(walk.at[1]))[0]]);
         }
         let [t1, v1] = self.first(at);
         // A ball that lies on the floor meets it no more.
