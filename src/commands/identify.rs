@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use clap::Args;
+use glam::DVec3;
 
 use super::argument::{brief, number, number_that, positive};
 use super::error::Error;
@@ -16,8 +17,9 @@ use crate::table::{Heading, TableOptions};
 use crate::tools::identify::{Log, LogError, LogSetting, LoggedBody, identify};
 
 mod findings;
+mod spin;
 
-use findings::{object, report_text};
+use findings::{object, report_text, spin_text};
 
 const ABOUT: &str = "\
 LOG.csv is a table or JSON with a row for each tick, or for some of them: t, x in metres and v, if logged.
@@ -32,6 +34,7 @@ The body is one of:
 
   a spring      --k, and --c and --mass if they are not 0 and 1
   a body that coasts or is driven    --drag, the damping setting in 1/s, and --thrust in newtons
+  a spin in space    columns wx, wy, wz (rad/s) in the body's frame, and --moments about its axes
   neither given: a spring; its stiffness and damping are fitted too, which leaves more open
 
 Identify finds where the spring rests, if not at 0, or takes it from --rest.
@@ -84,6 +87,12 @@ pub(super) struct IdentifyArgs {
     /// The mass in kg
     #[arg(long, value_name = "kg", default_value = "1", value_parser = positive)]
     mass: f64,
+
+    /// The moments of inertia of a body that spins in space, or their ratios
+    ///
+    /// About the axes of the columns wx, wy and wz.
+    #[arg(long, value_name = "I1,I2,I3", value_parser = spin::moments)]
+    moments: Option<DVec3>,
 
     #[command(flatten)]
     read: LogArgs,
@@ -206,7 +215,11 @@ impl LogArgs {
 }
 
 pub(super) fn run(args: &IdentifyArgs) -> Result<(), Error> {
-    let logs = logs(args)?;
+    let file = LogFile::read(&args.log)?;
+    if let Some(found) = spin::answer(args, &file)? {
+        return args.format.print(&found);
+    }
+    let logs = logs(args, &file)?;
     let found = |log: &Log| identify(log, &args.read.body(args.mass), log.tick_hz());
     if let TableFormat::Json = args.format {
         let mut objects =
@@ -228,9 +241,8 @@ pub(super) fn run(args: &IdentifyArgs) -> Result<(), Error> {
 
 /// Returns the log of each body and each coordinate, with a name where there are several. Where one cannot be read, the
 /// reason is printed.
-fn logs(args: &IdentifyArgs) -> Result<Vec<(String, Log)>, Error> {
-    let tick_hz = args.tick_hz.or(args.step);
-    let (file, options) = (LogFile::read(&args.log)?, args.read.table.options());
+fn logs(args: &IdentifyArgs, file: &LogFile) -> Result<Vec<(String, Log)>, Error> {
+    let (tick_hz, options) = (args.tick_hz.or(args.step), args.read.table.options());
     let bodies: Vec<_> = match file.log(&options, tick_hz) {
         Ok(log) => vec![(String::new(), log, options)],
         Err(error) => {

@@ -26,11 +26,13 @@ mod net;
 mod orbit;
 pub mod palette;
 mod pendulum;
+mod polhode;
 mod ship;
 mod spring;
 mod tumble;
 
 pub use density::density_picture;
+pub use polhode::Polhode;
 
 /// The part of a body's world that the stage shows.
 #[derive(Clone, Copy, Debug, PartialEq)]

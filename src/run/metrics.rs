@@ -91,6 +91,8 @@ impl Metric {
     pub const VELOCITY_ERROR: usize = place_of("velocity_error");
     /// The index of the energy drift in [`METRICS`].
     pub const ENERGY_DRIFT: usize = place_of("energy_drift");
+    /// The index of the attitude error in [`METRICS`].
+    pub const ATTITUDE_ERROR: usize = place_of("attitude_error");
     /// The index of the half-life in [`METRICS`].
     pub const HALF_LIFE: usize = place_of("half_life");
     /// The index of the overshoot in [`METRICS`].

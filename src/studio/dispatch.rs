@@ -106,6 +106,9 @@ pub(super) fn carry_out_on_stage(deck: &mut Deck, viewer: &mut Viewer, command: 
         StageCommand::InstrumentBeside(step) => {
             let instrument = &mut viewer.preferences.display.instrument;
             *instrument = instrument.neighbour(step);
+            while !instrument.is_of(deck.scene()) {
+                *instrument = instrument.neighbour(step);
+            }
         }
         StageCommand::Metric(index) => {
             viewer.preferences.display.metric = index.min(METRICS.len() - 1)

@@ -11,6 +11,8 @@ pub enum Instrument {
     Energy,
     /// Velocity over coordinate.
     Phase,
+    /// The direction of the angular momentum, as seen from a body that turns in space.
+    Polhode,
     /// The tick rates and the values of a parameter at which each method is stable.
     StabilityMap,
     /// The anatomy of the selected method's next tick.
@@ -50,6 +52,8 @@ pub struct InstrumentCard {
 }
 
 use super::step::Step;
+use crate::scene::{Scene, SceneBody};
+use crate::sim::BodyClass;
 use InstrumentGroup::{Do, See, Why};
 
 /// Every instrument, in the order of the tabs.
@@ -81,6 +85,14 @@ pub static INSTRUMENTS: &[InstrumentCard] = &[
         name: "Phase",
         about: "Velocity against position. A motion that repeats is a closed loop; a spiral outwards gains energy, a \
                 spiral inwards loses it.",
+    },
+    InstrumentCard {
+        instrument: Instrument::Polhode,
+        group: See,
+        name: "Polhode",
+        about: "Where the angular momentum L points, as seen from a body that turns in space along its middle axis. In truth \
+                it goes to and fro on the white curve; the thin lines part the turns about one axis from those about \
+                another. A trail that drifts to them tips the body over.",
     },
     InstrumentCard {
         instrument: Instrument::StabilityMap,
@@ -172,8 +184,19 @@ impl Instrument {
     pub fn is_in_loop_lab(self) -> bool {
         match self {
             Self::Motion | Self::Error | Self::Energy | Self::Phase | Self::Loop => true,
-            Self::Cost | Self::StabilityMap | Self::OneStep | Self::Cloud | Self::Advice => false,
+            Self::Cost
+            | Self::Polhode
+            | Self::StabilityMap
+            | Self::OneStep
+            | Self::Cloud
+            | Self::Advice => false,
         }
+    }
+
+    /// Whether the instrument has something to show in a scene.
+    pub fn is_of(self, scene: &Scene) -> bool {
+        let turns = |body: &SceneBody| body.kind.class == BodyClass::Spin;
+        self != Self::Polhode || scene.bodies.iter().any(turns)
     }
 
     /// Returns the instrument of the next or previous tab, cyclically.

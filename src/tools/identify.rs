@@ -14,6 +14,7 @@ mod logged;
 mod matching_spring;
 mod motion;
 mod simplest;
+mod spin;
 mod swing;
 
 use candidates::candidates;
@@ -25,6 +26,7 @@ pub use logged::{Log, LogError, LogRow, LogSetting, LoggedBody};
 pub(crate) use motion::{SLOW, run};
 pub use simplest::SimpleMotion;
 use simplest::{drifting, refusal, simplest};
+pub use spin::identify_spin;
 pub use swing::FittedSwing;
 use swing::fitted_swing;
 

@@ -453,6 +453,7 @@ complete -c regatta -n "__fish_regatta_using_subcommand capture" -l instrument -
 error\t''
 energy\t''
 phase\t''
+polhode\t''
 stability-map\t''
 one-step\t''
 cloud\t''
@@ -1264,6 +1265,7 @@ complete -c regatta -n "__fish_regatta_using_subcommand loop" -s h -l help -d 'P
 complete -c regatta -n "__fish_regatta_using_subcommand identify" -l tick-hz -d 'Ticks per second of the game that wrote it [default: by the times]' -r
 complete -c regatta -n "__fish_regatta_using_subcommand identify" -l step -d 'The length of a tick, in place of --tick-hz' -r
 complete -c regatta -n "__fish_regatta_using_subcommand identify" -l mass -d 'The mass in kg' -r
+complete -c regatta -n "__fish_regatta_using_subcommand identify" -l moments -d 'The moments of inertia of a body that spins in space, or their ratios' -r
 complete -c regatta -n "__fish_regatta_using_subcommand identify" -l k -d 'The stiffness of the spring [default: fitted]' -r
 complete -c regatta -n "__fish_regatta_using_subcommand identify" -l c -d 'The damping of the spring [default: fitted]' -r
 complete -c regatta -n "__fish_regatta_using_subcommand identify" -l drag -d 'The damping setting of the body' -r

@@ -222,6 +222,35 @@ fn verdict(found: &Identification, log: &Log) -> String {
     }
 }
 
+/// Says which step a log of a free spin in space is of.
+pub(super) fn spin_text(found: Option<&Identification>) -> String {
+    let residual =
+        |fitted: &Fitted| format!("{}, residual {:.1e}", fitted.candidate, fitted.residual);
+    let Some((found, best)) = found.and_then(|found| Some((found, found.best?))) else {
+        return "unknown: no two rows in a row are a tick apart, or nothing spins\n".into();
+    };
+    let makers = listed(&makers(&best.candidate, &found.also));
+    let lines = match (found.conclusion, &found.runner_up) {
+        (Conclusion::Identified, Some(rival)) => vec![
+            format!("made by {makers}, residual {:.1e}", best.residual),
+            format!("the same on this body: {}", names(&found.also)),
+            format!("runner-up: {}", residual(rival)),
+        ],
+        (Conclusion::Unknown, _) => vec![
+            format!("unknown: the nearest is {}", residual(&best)),
+            "wx, wy, wz must be about the principal axes, in the order of --moments, and at even ticks".into(),
+        ],
+        (_, rival) => {
+            let rival = rival.as_ref().map_or("any other".into(), residual);
+            vec![
+                format!("cannot tell {}, from {rival}", residual(&best)),
+                "log a spin that is farther from an axis, or in double precision".into(),
+            ]
+        }
+    };
+    lines.join("\n") + "\n"
+}
+
 pub(super) fn report_text(found: &Identification, log: &Log, mass: f64) -> String {
     let Identification { conclusion, runner_up, effective, exact, recommended, .. } = found;
     let residual = |fitted: &Fitted| format!("residual {:.1e}", fitted.residual);

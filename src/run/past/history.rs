@@ -221,6 +221,7 @@ mod tests {
             at: DVec2::ZERO,
             energies: None,
             entry,
+            pole: [f64::NAN; 2],
             metrics: [0.0; METRICS.len()],
             jumped: false,
         }

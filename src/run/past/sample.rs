@@ -5,6 +5,7 @@ use glam::DVec2;
 use crate::run::race::LaneBody;
 use crate::run::{METRICS, MenuIndex};
 use crate::sim::Stepper;
+use crate::sim::bodies::Tumble;
 
 /// Maximum number of displayed samples, which is enough for every tick of 30 s at 60 Hz, and more than a plot has
 /// pixels.
@@ -27,6 +28,8 @@ pub struct Sample {
     pub energies: Option<Energies>,
     /// Index of the lane's method on the [menu](super::Menu) at that moment. A trail changes colour at a switch.
     pub entry: MenuIndex,
+    /// The [pole](Tumble::pole) of a body that turns in space; NaN for others.
+    pub pole: [f64; 2],
     /// Values of all [`METRICS`]; NaN if undefined.
     pub metrics: [f64; METRICS.len()],
     /// Whether the body was placed at this moment, so that no path leads from the previous sample.
@@ -36,7 +39,8 @@ pub struct Sample {
 /// Compares the bits of all numbers.
 impl PartialEq for Sample {
     fn eq(&self, other: &Self) -> bool {
-        let numbers = |s: &Self| [s.t, s.q, s.v, s.at.x, s.at.y].map(f64::to_bits);
+        let numbers =
+            |s: &Self| [s.t, s.q, s.v, s.at.x, s.at.y, s.pole[0], s.pole[1]].map(f64::to_bits);
         let metrics = |s: &Self| s.metrics.map(f64::to_bits);
         let energies = |s: &Self| s.energies.map(Energies::to_bits);
         numbers(self) == numbers(other)
@@ -60,7 +64,9 @@ impl Sample {
             std::array::from_fn(|i| (METRICS[i].measure)(body, truth).unwrap_or(f64::NAN));
         let (swept, at) = (SweptRange::at(q), body.stepper.place());
         let energies = Energies::of(&*body.stepper);
-        Self { t, q, swept, v, at, energies, entry, metrics, jumped: false }
+        let tumble = body.stepper.body().downcast_ref::<Tumble>();
+        let pole = tumble.map_or([f64::NAN; 2], |tumble| tumble.pole(body.stepper.v()));
+        Self { t, q, swept, v, at, energies, entry, pole, metrics, jumped: false }
     }
 }
 

@@ -133,6 +133,21 @@ impl Tumble {
         self.moments * Self::spin_of(v)
     }
 
+    /// Returns the indices of the principal axes, from the least moment to the greatest.
+    pub fn axes_by_moment(&self) -> [usize; 3] {
+        let mut axes = [0, 1, 2];
+        axes.sort_by(|a, b| self.moments[*a].total_cmp(&self.moments[*b]));
+        axes
+    }
+
+    /// Returns the direction of L from the body, as seen along its middle axis: L/|L| along the axes of the least and the
+    /// greatest moment. Not finite if L has no direction.
+    pub fn pole(&self, v: &[f64]) -> [f64; 2] {
+        let [least, _, greatest] = self.axes_by_moment();
+        let momentum = self.momentum_in_body(v);
+        [least, greatest].map(|axis| momentum[axis] / momentum.length())
+    }
+
     /// Returns L of a state in the frame of the world, in N m s.
     pub fn momentum(&self, q: &[f64], v: &[f64]) -> DVec3 {
         unit_attitude(q) * self.momentum_in_body(v)

@@ -10,7 +10,7 @@ pub(super) const CARD: Method = Method {
     order_with_drag: 2,
     reversible: true,
     evaluation_cost: 4,
-    source: "Hairer, Lubich & Wanner, Geometric Numerical Integration (2006), VII.5; MuJoCo 3.7 to 3.10",
+    source: "Hairer, Lubich & Wanner, Geometric Numerical Integration (2006), VII.5; MuJoCo 3.7 to 3.10, Genesis (2026)",
     formula: &[
         "m = ω + ½h a(m), ω′ = 2 m − ω",
         "turn by the quaternion 1 + ½h m, scaled to length 1",

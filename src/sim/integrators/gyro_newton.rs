@@ -9,7 +9,7 @@ pub(super) const CARD: Method = Method {
     order: 1,
     order_with_drag: 1,
     evaluation_cost: 2,
-    source: "Catto, Numerical Methods (2015); Bullet, Box3D, MuJoCo implicit",
+    source: "Catto, Numerical Methods (2015); Bullet, Box3D, MuJoCo implicit, Avian before avian#738",
     formula: &["J = I + h ([ω] I − [L])", "ω′ = ω − h J⁻¹(ω × L), then turn by h ω′"],
     ..GYRO
 };

@@ -8,7 +8,7 @@ pub(super) const CARD: Method = Method {
     about: "keeps |L| and drives every spin to the middle axis: a coin tips over and gains energy",
     order: 1,
     order_with_drag: 1,
-    source: "Rapier, Avian, and Jolt and PhysX where it is switched on (JoltPhysics#803, 2023)",
+    source: "Rapier, Avian since avian#738, Jolt and PhysX where switched on (JoltPhysics#803, 2023)",
     formula: &["M = L − h ω × L", "ω′ = I⁻¹(M |L| / |M|), then turn by h ω′"],
     ..GYRO
 };

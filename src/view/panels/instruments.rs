@@ -33,6 +33,7 @@ mod layout;
 mod motion;
 mod phase;
 mod plot_set;
+mod polhode;
 #[cfg(test)]
 mod tests;
 
@@ -56,7 +57,11 @@ pub(super) fn min_height(instrument: Instrument) -> f32 {
     match instrument {
         Instrument::OneStep => 430.0,
         Instrument::StabilityMap | Instrument::Loop => 300.0,
-        Instrument::Energy | Instrument::Phase | Instrument::Cloud | Instrument::Advice => 260.0,
+        Instrument::Energy
+        | Instrument::Phase
+        | Instrument::Polhode
+        | Instrument::Cloud
+        | Instrument::Advice => 260.0,
         Instrument::Motion | Instrument::Error | Instrument::Cost => 200.0,
     }
 }
@@ -72,7 +77,11 @@ pub(super) fn show(ui: &mut Ui, studio: &Studio, indent: f32, commands: &mut Vec
 pub(super) fn show_alone(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) {
     let room = ui.available_size() - vec2(10.0, 2.0);
     match studio.display().instrument {
-        Instrument::Motion | Instrument::Error | Instrument::Energy | Instrument::Phase => {
+        Instrument::Motion
+        | Instrument::Error
+        | Instrument::Energy
+        | Instrument::Phase
+        | Instrument::Polhode => {
             if let Some(set) = plot_set_of(studio, detail(ui, studio)) {
                 plots(ui, studio, &set, commands);
             }
@@ -106,6 +115,7 @@ fn plot_set_of(studio: &Studio, detail: Detail) -> Option<PlotSet> {
         Instrument::Error => Some(error::plot_set(studio)),
         Instrument::Energy => Some(energy::plot_set(studio)),
         Instrument::Phase => Some(phase::plot_set(studio)),
+        Instrument::Polhode => Some(polhode::plot_set(studio)),
         Instrument::Cloud => cloud::plot_set(studio),
         Instrument::Cost
         | Instrument::StabilityMap
@@ -165,11 +175,14 @@ fn tabs(ui: &mut Ui, studio: &Studio, indent: f32, commands: &mut Vec<Command>) 
     });
 }
 
-/// Returns the available instruments of a group.
+/// Returns the available instruments of a group, and the selected one.
 fn cards(studio: &Studio, group: InstrumentGroup) -> impl Iterator<Item = &'static InstrumentCard> {
     let is_in_loop_lab = studio.loop_lab().is_some();
     let of_group = INSTRUMENTS.iter().filter(move |card| card.group == group);
-    of_group.filter(move |card| !is_in_loop_lab || card.instrument.is_in_loop_lab())
+    of_group.filter(move |InstrumentCard { instrument, .. }| match is_in_loop_lab {
+        true => instrument.is_in_loop_lab(),
+        false => *instrument == studio.display().instrument || instrument.is_of(studio.scene()),
+    })
 }
 
 /// Returns the width of tabs with this padding around their words, in points. The width suffices for any selected tab.

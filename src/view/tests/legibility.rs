@@ -433,7 +433,9 @@ fn instruments_have_one_row_of_tabs_and_a_menu_in_a_small_window() {
     for instrument in Instrument::all() {
         studio.apply(StageCommand::Instrument(instrument));
         let of_group = |group: InstrumentGroup, is_whole: bool| {
+            let is_there = |it: Instrument| it == instrument || it.is_of(studio.scene());
             let cards = INSTRUMENTS.iter().filter(move |card| card.group == group);
+            let cards = cards.filter(|card| is_there(card.instrument));
             let names: Vec<&str> = match is_whole || group == instrument.card().group {
                 true => cards.map(|card| card.name).collect(),
                 false => vec![group.name()],
@@ -441,11 +443,14 @@ fn instruments_have_one_row_of_tabs_and_a_menu_in_a_small_window() {
             names
         };
         let tabs = |is_whole| InstrumentGroup::ALL.map(|group| of_group(group, is_whole)).concat();
+        // One more tab has less room.
+        let is_narrow = instrument == Instrument::Polhode;
+        let narrow = if is_narrow { vec![instrument.name()] } else { tabs(false) };
         for (size, wanted) in [
             (vec2(440.0, 400.0), vec![instrument.name()]),
-            (SIZES[0], tabs(false)),
+            (SIZES[0], narrow),
             (SIZES[1], tabs(false)),
-            (SIZES[2], tabs(true)),
+            (SIZES[2], tabs(!is_narrow)),
         ] {
             let is_name = |text: &Text| {
                 tabs(true).contains(&&*text.words)

@@ -581,3 +581,15 @@ fn each_coordinate_of_a_log_is_answered() {
     let output = run_in(folder.path(), "identify log.csv --x-column y --v-column vx");
     assert!(!String::from_utf8(output.stdout).unwrap().contains("\nx\n"));
 }
+
+#[test]
+fn a_log_of_a_spin_in_space_identifies_its_step_with_the_moments() {
+    const LOG: &str = "identify tests/data/engines/rapier3d__tumble_a_60hz_n4.csv --tick-hz 60";
+    let text = stdout_of(&format!("{LOG} --moments 1,2,3"));
+    assert!(text.starts_with("made by gyro-rescaled ×4 or engine-rapier ×4 "), "{text}");
+    let json = stdout_of(&format!("{LOG} --moments 2,4,6 --format json"));
+    let found: Value = serde_json::from_str(&json).unwrap();
+    assert_eq!([&found["word"], &found["best"]], ["identified", "gyro-rescaled"], "{json}");
+    assert!(found["also"].as_array().is_some_and(|also| !also.is_empty()));
+    assert!(stderr(&run(LOG)).contains("--moments I1,I2,I3"));
+}

@@ -99,6 +99,8 @@ fn every_command_that_answers_in_json_prints_what_the_schema_says() {
         check(name, &said_here(&format!("{arguments} --format json")));
     }
     check("identify", &said_here(&format!("identify {LOG} --tick-hz 60 --format json")));
+    let spin = "tests/data/engines/bullet__tumble_a_60hz.csv --moments 1,2,3";
+    check("identify", &said_here(&format!("identify {spin} --tick-hz 60 --format json")));
     let folder = tempdir().unwrap();
     let said =
         |arguments: &str| String::from_utf8(run_in(folder.path(), arguments).stdout).unwrap();

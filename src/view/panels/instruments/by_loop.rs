@@ -37,6 +37,7 @@ pub(super) fn plot_set(
         Instrument::Energy => ("Energy", plots.energy()),
         Instrument::Phase => ("Phase portrait", plots.phase()),
         Instrument::Cost
+        | Instrument::Polhode
         | Instrument::StabilityMap
         | Instrument::OneStep
         | Instrument::Cloud

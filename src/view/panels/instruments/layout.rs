@@ -39,7 +39,17 @@ pub(super) struct Cell<'s> {
 impl Cell<'_> {
     /// Returns the plot's area, with the ranges that the user has chosen.
     pub(super) fn area(&self, ranges: &BTreeMap<String, [f64; 2]>) -> PlotArea {
-        PlotArea { rect: self.frame, bounds: self.plot.in_view(ranges) }
+        let mut bounds = self.plot.in_view(ranges);
+        if self.plot.is_round {
+            let sides = [self.frame.width(), self.frame.height()].map(f64::from);
+            let scales = [0, 1].map(|axis| (bounds[axis][1] - bounds[axis][0]) / sides[axis]);
+            let scale = scales[0].max(scales[1]);
+            for ([low, high], side) in bounds.iter_mut().zip(sides) {
+                let middle = (*low + *high) / 2.0;
+                (*low, *high) = (middle - scale * side / 2.0, middle + scale * side / 2.0);
+            }
+        }
+        PlotArea { rect: self.frame, bounds }
     }
 
     pub(super) fn marks(&self, area: &PlotArea, axis: usize) -> Vec<AxisMark> {

@@ -85,7 +85,14 @@ fn plot(studio: &Studio, body: usize, detail: Detail) -> PlotModel {
     let id = format!("{} of {body}", quantity.symbol(&coordinate));
     let axes = [PlotAxis::time("time t"), PlotAxis::of_quantity(quantity, &coordinate)];
     let plot = PlotModel::new(body, id, title, axes, over_time(studio, y));
-    PlotModel { tracks, dots: Dots::SparseAlongX, exact: vec![exact], futures, before, ..plot }
+    PlotModel {
+        tracks,
+        dots: Dots::SparseAlongX,
+        exact: vec![exact],
+        beside: futures,
+        before,
+        ..plot
+    }
 }
 
 /// Maximum enlargement of a plot to show futures.

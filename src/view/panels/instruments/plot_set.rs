@@ -44,12 +44,15 @@ pub(super) struct PlotModel {
     pub(super) tracks: Vec<Track>,
     pub(super) dots: Dots,
     pub(super) exact: Vec<ExactLine>,
-    /// The next second under each method, with a dot for each tick, and in truth.
-    pub(super) futures: Vec<Curve>,
+    /// Further curves: the next second under each method, with a dot for each tick, and in truth; or lines that do not
+    /// move.
+    pub(super) beside: Vec<Curve>,
     /// The run before the last restart, beside the lanes.
     pub(super) before: Option<BeforeLine>,
     /// Whether the quantity is known at ticks only. Its present value is that of the last tick, as in the table.
     pub(super) is_of_ticks: bool,
+    /// Whether both axes have the same scale, so that a circle is one.
+    pub(super) is_round: bool,
     /// Message in place of the plot, which is the reason why there is nothing to show.
     pub(super) nothing: Option<String>,
 }
@@ -330,8 +333,9 @@ impl PlotModel {
         axes: [PlotAxis; 2],
         fit: Bounds,
     ) -> Self {
-        let (tracks, exact, futures) = (Vec::new(), Vec::new(), Vec::new());
-        let (dots, before, nothing, is_of_ticks) = (Dots::None, None, None, false);
+        let (tracks, exact, beside) = (Vec::new(), Vec::new(), Vec::new());
+        let (dots, before, nothing) = (Dots::None, None, None);
+        let [is_of_ticks, is_round] = [false; 2];
         Self {
             id,
             title,
@@ -341,9 +345,10 @@ impl PlotModel {
             tracks,
             dots,
             exact,
-            futures,
+            beside,
             before,
             is_of_ticks,
+            is_round,
             nothing,
         }
     }
@@ -389,7 +394,7 @@ impl PlotModel {
         }
         let curves = |line| ExactLine::curves(line, studio, self.body, bounds[0], columns);
         drawing.truth = self.exact.iter().flat_map(curves).collect();
-        drawing.truth.extend(self.futures.iter().cloned());
+        drawing.truth.extend(self.beside.iter().cloned());
         if self.is_over_time() {
             let left = drawing.truth.iter().filter_map(|curve| departure(curve, bounds));
             drawing.arrows.extend(left.collect::<Vec<_>>());

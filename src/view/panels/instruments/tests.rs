@@ -41,7 +41,7 @@ fn assert_legible(studio: &Studio, what: &str) {
     let texts = texts(studio, SIZE);
     let here: Vec<_> = texts.iter().filter(|(rect, _)| rect.left() > left).collect();
     let place = |wanted: &str| here.iter().find(|(_, text)| text == wanted).map(|(rect, _)| rect);
-    for card in INSTRUMENTS {
+    for card in InstrumentGroup::ALL.into_iter().flat_map(|group| cards(studio, group)) {
         // Every group except the selected one has a single tab if there is no room for all tabs.
         let is_chosen = card.group == studio.display().instrument.card().group;
         let group = place(card.group.name()).filter(|_| !is_chosen);

@@ -1,0 +1,59 @@
+//! The log of a body that spins freely in space.
+
+use glam::DVec3;
+use serde_json::Value;
+
+use super::{IdentifyArgs, LogFile, object, refused, spin_text};
+use crate::commands::argument::positive;
+use crate::commands::error::Error;
+use crate::commands::output::table::TableFormat;
+use crate::commands::terminal::print_status;
+use crate::table::TableOptions;
+use crate::tools::identify::{Log, LogError, LogSetting, identify_spin};
+
+/// Reads three moments of inertia.
+pub(super) fn moments(written: &str) -> Result<DVec3, String> {
+    let all =
+        written.split(',').map(|part| positive(part.trim())).collect::<Result<Vec<_>, _>>()?;
+    let three = <[f64; 3]>::try_from(all);
+    three.map(DVec3::from).map_err(|_| "write three moments, such as 1,2,3".into())
+}
+
+/// Returns what is found about a log of wx, wy and wz; `None` for a log of another motion.
+pub(super) fn answer(args: &IdentifyArgs, file: &LogFile) -> Result<Option<String>, Error> {
+    let (tick_hz, usual) = (args.tick_hz.or(args.step), args.read.table.options());
+    // Both logs have wy, because a log of one coordinate that does not change is refused.
+    let of = |x: &str| {
+        let [x, v] = [x, "wy"].map(|name| Some(name.to_owned()));
+        file.log(&TableOptions { x, v, ..usual.clone() }, tick_hz)
+    };
+    let has_no_x = |read: Result<Log, LogError>| {
+        read.err().is_some_and(|error| error.mistaken == Some(LogSetting::CoordinateColumn))
+    };
+    let is_other = || !has_no_x(file.log(&usual, tick_hz)) || has_no_x(of("wx"));
+    if args.moments.is_none() && (usual.x.is_some() || is_other()) {
+        return Ok(None);
+    }
+    let logs = [of("wx").map_err(refused)?, of("wz").map_err(refused)?];
+    let Some(moments) = args.moments else {
+        return Err(Error::mistake(format!(
+            "{}: wx, wy and wz are the spin of a body in space; give its moments of inertia about these axes, or their \
+             ratios, with --moments I1,I2,I3",
+            file.name
+        )));
+    };
+    let rows = logs[0].rows().iter().zip(logs[1].rows());
+    let spin = |v: Option<f64>, x, z| DVec3::new(x, v.unwrap_or(0.0), z);
+    let rows: Vec<_> = rows.map(|(xy, z)| (xy.tick, spin(xy.v, xy.x, z.x))).collect();
+    let rows = if logs[0].is_uneven() { &[][..] } else { &rows };
+    let hz = logs[0].tick_hz();
+    print_status(&format!("read {} rows at {hz} a second, columns wx, wy, wz", rows.len()));
+    let found = identify_spin(rows, moments, hz);
+    let TableFormat::Json = args.format else { return Ok(Some(spin_text(found.as_ref()))) };
+    let mut object = object(found.as_ref(), &logs[0], args.mass);
+    object["rest_m"] = Value::Null;
+    if let Some(left_out) = object["read"]["left_out"].as_array_mut() {
+        left_out.retain(|name| name != "wz");
+    }
+    Ok(Some(format!("{object:#}\n")))
+}
