@@ -147,6 +147,7 @@ fn the_guide_visits_the_explaining_instruments_and_the_loop_lab() {
         Instrument::Cloud,
         Instrument::Energy,
         Instrument::Phase,
+        Instrument::Polhode,
         Instrument::Cost,
         Instrument::Error,
     ] {
@@ -459,6 +460,19 @@ fn the_answer_of_a_stop_matches_its_verdict() {
         let judge = Judge::new(studio.scene());
         let found = judge.verdict(spec, studio.clock().tick_hz());
         assert_eq!(found.outcome(), outcome, "{title}: {found}");
+    }
+}
+
+#[test]
+fn of_the_steps_of_the_coin_one_tips_it_over_and_two_follow_the_truth() {
+    let found = |id: &str| verdict("coin", id, 60);
+    let rescaled = found("gyro-rescaled");
+    assert_eq!(rescaled.outcome(), Outcome::Grows);
+    let words = rescaled.to_string();
+    assert!(words.contains("tips over at 0.6 s, energy ×1.96 in 5 s"), "{words}");
+    assert!(!found("engine-bullet").to_string().contains("tips over"));
+    for id in ["gyro-rotated", "split-3"] {
+        assert_eq!(found(id).outcome(), Outcome::Accurate, "{id}");
     }
 }
 

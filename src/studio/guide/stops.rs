@@ -336,4 +336,18 @@ pub static STOPS: &[Stop] = &[
         answer: "They add energy: with 4 substeps the swing doubles in 6 s, with 8 sooner, and with 1 it stays. The force is held while the body moves on under it. Make the spring a joint, or apply the force in every substep.",
         ..SPRING
     },
+    Stop {
+        title: "A spinning coin",
+        scene: "coin",
+        method: "gyro-rescaled",
+        instrument: Instrument::Polhode,
+        question: "Bodies turn in space, too. A coin spins upright, tilted by 1.9°, under the step of Rapier and Avian. In truth it wobbles for ever. What does it do here?",
+        choices: &["it wobbles for ever", "it comes to rest", "it tips over"],
+        right: 2,
+        task: "Press `C` to race it beside other steps.",
+        keys: &[Key::Sign('c')],
+        goal: Goal::Race,
+        answer: "It tips over at 0.6 s, and has gained 96 % energy after 5 s: this step keeps the length of L, but L leaves its white curve, away from the axis of the spin. Bullet's step does not tip over; the step by rotation and split-3 stay on the curve.",
+        ..SPRING
+    },
 ];

@@ -2,6 +2,7 @@
 
 use super::row::{self, Row};
 use crate::run::race::Mode;
+use crate::sim::bodies::Tumble;
 use crate::stage::number::{round, significant};
 use crate::studio::Studio;
 use crate::view::panels::table::{Column, SortKey, TableRow, show_words};
@@ -35,12 +36,16 @@ pub(super) fn of<'a>(studio: &Studio) -> Vec<Column<Row<'a>>> {
     if studio.viewer.is_asked() {
         return columns;
     }
-    columns.push(position());
-    if is_solo && has_truth {
-        columns.push(exact());
-    }
-    if has_truth {
-        columns.push(error());
+    if truths.clone().all(|body| body.stepper.body().is::<Tumble>()) {
+        columns.push(attitude());
+    } else {
+        columns.push(position());
+        if is_solo && has_truth {
+            columns.push(exact());
+        }
+        if has_truth {
+            columns.push(error());
+        }
     }
     if truths.clone().any(|body| body.chase().is_some()) {
         columns.extend(chase());
@@ -131,6 +136,14 @@ fn error<'a>() -> Column<Row<'a>> {
     let text = |row: &Row<'a>| row.in_unit(row.largest_error()?);
     let about = "largest difference from the exact solution in a coordinate since the start";
     Column::number("error", (88.0, 2), about, text, Row::largest_error).headed("largest error")
+}
+
+/// Returns the error of a body that turns in space, whose coordinates mean nothing to a person.
+fn attitude<'a>() -> Column<Row<'a>> {
+    let about = "angle between the attitudes of the body in this lane and of the exact solution";
+    let text =
+        |row: &Row<'a>| Some(format!("{}°", significant(row.attitude_error()?.to_degrees(), 3)));
+    Column::number("attitude error", (104.0, 2), about, text, Row::attitude_error)
 }
 
 /// Returns the measures of a body that follows a target.

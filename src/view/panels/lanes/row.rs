@@ -151,6 +151,12 @@ impl<'a> Row<'a> {
         self.peaks().filter(|_| self.has_truth()).map(|most| most.error)
     }
 
+    /// Returns the angle (rad) between the attitudes of the body and of the truth, if it turns in space.
+    pub(super) fn attitude_error(&self) -> Option<f64> {
+        let angle = self.measure(Metric::ATTITUDE_ERROR)?;
+        Some(Self::above_rounding(angle, std::f64::consts::TAU))
+    }
+
     /// Returns the energy that the body has gained over the truth with its unit, in percent, or else in joules. Without
     /// a truth, returns the total energy of the body.
     pub(super) fn energy(&self) -> Option<(f64, &'static str)> {
