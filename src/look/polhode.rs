@@ -9,8 +9,8 @@ use crate::sim::bodies::Tumble;
 /// Number of points around a closed curve.
 const AROUND: u32 = 256;
 
-/// The directions of L from a body that turns in space. A place is L/|L| along the axes of the least and of the greatest
-/// moment.
+/// The directions of L from a body that turns in space. A place is L/|L| along the axes of the least and of the
+/// greatest moment.
 pub struct Polhode {
     /// The names of the principal axes, from the least moment to the greatest.
     pub axes: [&'static str; 3],

@@ -472,7 +472,8 @@ fn of_the_steps_of_the_coin_one_tips_it_over_and_two_follow_the_truth() {
     assert!(words.contains("tips over at 0.6 s, energy ×1.96 in 5 s"), "{words}");
     assert!(!found("engine-bullet").to_string().contains("tips over"));
     for id in ["gyro-rotated", "split-3"] {
-        assert_eq!(found(id).outcome(), Outcome::Accurate, "{id}");
+        let outcome = found(id).outcome();
+        assert!(matches!(outcome, Outcome::Accurate | Outcome::Rounding), "{id}: {outcome:?}");
     }
 }
 

@@ -102,7 +102,7 @@ pub struct Ball {
 }
 
 /// The last impacts of a walk from flight to flight, one for each number of zeros at which the binary count of flights
-/// ends, so that a moment a few flights earlier or later costs few flights.
+/// ends. So a moment a few flights earlier or later costs few flights.
 #[derive(Clone, Debug, Default)]
 pub struct Walk(RefCell<[Flights; 17]>);
 
@@ -235,7 +235,7 @@ impl Ball {
         self.fly([0.0, power * e * v1], time.max(0.0))
     }
 
-    /// Returns the last remembered impact of the flights from this state that is before what is looked for, or else their
+    /// Returns the last remembered impact of the flights from this state that is before a wanted one, or else their
     /// start.
     fn resumed(&self, from: [f64; 2], is_before: impl Fn(&Flights) -> bool) -> Flights {
         let begun = [from[0], from[1], self.gravity, self.drag, self.restitution];
@@ -431,7 +431,11 @@ impl Body for Ball {
             return [f64::INFINITY; 2];
         }
         let fastest = from.v.abs() + (2.0 * self.gravity * from.q.max(0.0)).sqrt();
-        let (late, rounding) = (8.0 * f64::EPSILON * dt, 8.0 * f64::EPSILON);
+        let rounding = 8.0 * f64::EPSILON;
+        // The roundings of many flights add up.
+        let from_floor = [from.q.max(0.0), from.v];
+        let flights = self.resumed(from_floor, |walk| walk.t[0] <= dt).flights;
+        let late = f64::EPSILON * dt * f64::from(flights).sqrt().max(8.0);
         let highest = from.q.abs() + fastest * fastest / (2.0 * self.gravity).max(1.0);
         let pull = self.gravity + self.drag * fastest;
         [rounding * highest + late * fastest, rounding * fastest + late * pull]

@@ -140,8 +140,8 @@ impl Tumble {
         axes
     }
 
-    /// Returns the direction of L from the body, as seen along its middle axis: L/|L| along the axes of the least and the
-    /// greatest moment. Not finite if L has no direction.
+    /// Returns the direction of L from the body, as seen along its middle axis. It is L/|L| along the axes of the least
+    /// and the greatest moment, and not finite if L is 0.
     pub fn pole(&self, v: &[f64]) -> [f64; 2] {
         let [least, _, greatest] = self.axes_by_moment();
         let momentum = self.momentum_in_body(v);

@@ -42,7 +42,7 @@ pub fn identify_spin(
         Some((Fitted { candidate, residual }, spins))
     };
     let mut fits: Vec<(Fitted, Vec<DVec3>)> = candidates().filter_map(fit).collect();
-    // Steps that are the same differ by rounding. A rule for a body that spins comes before the engines that step by it.
+    // Steps that are the same differ by rounding. A rule for a body that spins comes before the engines that use it.
     let rank = |fitted: &Fitted| {
         let Candidate { method, substeps, .. } = fitted.candidate;
         (method.is_engine(), substeps)

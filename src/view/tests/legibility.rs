@@ -434,8 +434,8 @@ fn instruments_have_one_row_of_tabs_and_a_menu_in_a_small_window() {
         studio.apply(StageCommand::Instrument(instrument));
         let of_group = |group: InstrumentGroup, is_whole: bool| {
             let is_there = |it: Instrument| it == instrument || it.is_of(studio.scene());
-            let cards = INSTRUMENTS.iter().filter(move |card| card.group == group);
-            let cards = cards.filter(|card| is_there(card.instrument));
+            let cards =
+                INSTRUMENTS.iter().filter(|card| card.group == group && is_there(card.instrument));
             let names: Vec<&str> = match is_whole || group == instrument.card().group {
                 true => cards.map(|card| card.name).collect(),
                 false => vec![group.name()],
@@ -588,15 +588,11 @@ fn the_opening_shows_few_words_and_numbers_and_no_tabs() {
             let more = if seconds > 2 { sentence } else { [0, usize::from(seconds > 0)] };
             let most = [0, 1].map(|of| most[of] + more[of]);
             assert!(words > 20 && words <= most[0], "{words} at {seconds} s: {:?}", counted[0]);
-            assert!(
-                numbers > 8 && numbers <= most[1],
-                "{numbers} at {seconds} s: {:?}",
-                counted[1]
-            );
+            let told = &counted[1];
+            assert!(numbers > 8 && numbers <= most[1], "{numbers} at {seconds} s: {told:?}");
             for card in INSTRUMENTS {
-                let is_there = counted[0]
-                    .iter()
-                    .any(|word| card.name.starts_with(word.as_str()) && word.len() > 3);
+                let is_of = |word: &String| card.name.starts_with(word) && word.len() > 3;
+                let is_there = counted[0].iter().any(is_of);
                 assert!(measure || !is_there, "{} at {seconds} s", card.name);
             }
         }

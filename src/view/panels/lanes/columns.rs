@@ -2,7 +2,7 @@
 
 use super::row::{self, Row};
 use crate::run::race::Mode;
-use crate::sim::bodies::Tumble;
+use crate::run::{METRICS, Metric};
 use crate::stage::number::{round, significant};
 use crate::studio::Studio;
 use crate::view::panels::table::{Column, SortKey, TableRow, show_words};
@@ -36,7 +36,8 @@ pub(super) fn of<'a>(studio: &Studio) -> Vec<Column<Row<'a>>> {
     if studio.viewer.is_asked() {
         return columns;
     }
-    if truths.clone().all(|body| body.stepper.body().is::<Tumble>()) {
+    let attitude_error = METRICS[Metric::ATTITUDE_ERROR].measure;
+    if truths.clone().all(|body| attitude_error(body, body).is_some()) {
         columns.push(attitude());
     } else {
         columns.push(position());
