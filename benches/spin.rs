@@ -67,7 +67,7 @@ impl Film {
         self.studio.advance(FRAME_NS);
         let time = Some(self.studio.race().t());
         let input = egui::RawInput { time, ..Default::default() };
-        let (_, layout) = self.renderer.lay_out(SIZE_PX, 1.0, input, &mut self.studio);
+        let (_, layout) = self.renderer.lay_out(SIZE_PX, 1.0, input, &self.studio);
         let output = self.renderer.paint(SIZE_PX, layout);
         self.executor.execute(&output.drawing, &mut self.rgba);
         black_box(png::encode(SIZE_PX, &self.rgba));
