@@ -11,12 +11,20 @@ use crate::commands::terminal::print_status;
 use crate::table::TableOptions;
 use crate::tools::identify::{Log, LogError, LogSetting, identify_spin};
 
+/// Part by which a moment may exceed the sum of the others, as logged decimals do.
+const ROUNDED: f64 = 1e-3;
+
 /// Reads three moments of inertia.
 pub(super) fn moments(written: &str) -> Result<DVec3, String> {
     let all =
         written.split(',').map(|part| positive(part.trim())).collect::<Result<Vec<_>, _>>()?;
-    let three = <[f64; 3]>::try_from(all);
-    three.map(DVec3::from).map_err(|_| "write three moments, such as 1,2,3".into())
+    let three = <[f64; 3]>::try_from(all).map_err(|_| "write three moments, such as 1,2,3")?;
+    let moments = DVec3::from(three);
+    let most = moments.max_element();
+    if most > (moments.element_sum() - most) * (1.0 + ROUNDED) {
+        return Err(format!("no body has a moment of {most} above the sum of the other two"));
+    }
+    Ok(moments)
 }
 
 /// Returns what is found about a log of wx, wy and wz; `None` for a log of another motion.

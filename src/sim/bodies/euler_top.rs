@@ -15,7 +15,10 @@ use crate::sim::spin::{Spin, turn_by};
 
 /// Returns the state `t` (s) after `from`, for these principal moments (kg m²).
 pub(super) fn flow(moments: DVec3, from: &Spin, t: f64) -> Spin {
-    if from.omega.cross(moments * from.omega) == DVec3::ZERO {
+    let DVec3 { x: i1, y: i2, z: i3 } = moments;
+    let DVec3 { x: w1, y: w2, z: w3 } = from.omega;
+    // The cross product of ω and L, which rounds to something else than 0 where moments are equal.
+    if [(i3 - i2) * w2 * w3, (i1 - i3) * w3 * w1, (i2 - i1) * w1 * w2] == [0.0; 3] {
         let turned = t * from.omega;
         let attitude = from.attitude * turn_by(turned);
         return Spin { turns: from.turns + turned, attitude, ..*from };

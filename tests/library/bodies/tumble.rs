@@ -1,5 +1,6 @@
 //! A body that turns freely in space: its exact motion, and the steps of engines and games on it.
 
+use crate::dice::Dice;
 use glam::{DQuat, DVec3};
 use regatta::sim::bodies::{Body, Tumble};
 use regatta::sim::integrators::{Integrator, Problem, integrator, method};
@@ -119,6 +120,34 @@ fn the_exact_motion_agrees_with_twelve_states_of_a_series_to_17_digits() {
         seen += 1;
     }
     assert_eq!(seen, 12);
+}
+
+#[test]
+fn the_exact_motion_with_equal_moments_is_an_even_turn_whatever_the_spin() {
+    let mut dice = Dice::new(8107);
+    let next = |moment: f64| f64::from_bits(moment.to_bits() + 1);
+    for _ in 0..300 {
+        let moment = dice.between(0.1, 9.0);
+        let [x, y, z] = [(); 3].map(|()| dice.between(-12.0, 12.0));
+        let spin = DVec3::new(x, y, z);
+        let across = DVec3::new(x, y, 0.0);
+        for (moments, spin) in [
+            (DVec3::splat(moment), spin),
+            (DVec3::new(moment, moment, 1.7 * moment), across),
+            (DVec3::new(moment, moment, 0.4 * moment), across),
+            (DVec3::new(moment, next(moment), next(next(moment))), spin),
+            (DVec3::new(moment, moment, next(moment)), spin),
+        ] {
+            let body = body(moments, spin);
+            let state = body.exact(3.0, &body.start()).unwrap();
+            let told = format!("{moments:?}, {spin:?}");
+            assert!((omega(&state) - spin).length() < 1e-11 * spin.length(), "{told}: {state:?}");
+            let (sin, cos) = (1.5 * spin.length()).sin_cos();
+            let even = sin * spin.normalize();
+            let wanted = DQuat::from_xyzw(even.x, even.y, even.z, cos);
+            assert!(1.0 - attitude(&state).dot(wanted).abs() < 1e-12, "{told}: {state:?}");
+        }
+    }
 }
 
 #[test]
