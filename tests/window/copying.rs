@@ -50,12 +50,12 @@ pub(crate) fn pasting_a_long_text_repeatedly_uses_no_memory() {
         let mut largest = before;
         for _ in 0..PASTES {
             desk.press("ctrl+v");
-            desk.still();
+            desk.settles();
             largest = largest.max(desk.program.memory_mb());
             assert!(largest < before + most, "{opens}: {before:.0} to {largest:.0} MB");
         }
         println!("{opens}: {before:.0} to {largest:.0} MB");
-        desk.press_and_see("Escape");
+        desk.press("Escape");
         desk.still();
     }
     desk.close();

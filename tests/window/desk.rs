@@ -206,13 +206,17 @@ impl Desk {
         });
     }
 
-    /// Waits for a window that moves by itself, which is never still, to have drawn some frames from now on.
+    /// Waits for a window that may move by itself: to be still, or to have drawn some frames from now on.
     #[track_caller]
-    pub(crate) fn some_frames(&self) {
-        for _ in 0..4 {
-            let before = self.sight();
-            until("another frame", || (self.sight() != before).then_some(()));
-        }
+    pub(crate) fn settles(&self) {
+        let (mut still, mut frames, mut before) = (0, 0, self.sight());
+        until("stillness or some frames", || {
+            still = if self.program.sleeps() { still + 1 } else { 0 };
+            let now = self.sight();
+            frames += u32::from(now != before);
+            before = now;
+            (still > 15 || frames > 4).then_some(())
+        });
     }
 
     /// Presses a key, and waits for something to change in a paused window.

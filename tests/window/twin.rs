@@ -5,7 +5,7 @@ use std::num::NonZero;
 use egui::accesskit::{Action, Node, Role};
 use egui::{Event, Key, Modifiers, PointerButton, Pos2, RawInput, Rect};
 use image::RgbaImage;
-use regatta::studio::{Command, Pace, Studio, run_loops};
+use regatta::studio::{Command, Dialog, Pace, Studio, run_loops};
 use regatta::view::{CpuExecutor, FrameRenderer};
 
 use crate::desk::Desk;
@@ -107,7 +107,7 @@ impl Twin {
     pub(crate) fn click_at(&mut self, desk: &Desk, at: Pos2) {
         let at = at.floor();
         if !self.studio.running() {
-            desk.still();
+            self.wait_for(desk);
         }
         desk.click(at.x as u32, at.y as u32);
         self.show([Event::PointerMoved(at), button(at, true), button(at, false)]);
@@ -130,12 +130,21 @@ impl Twin {
         self.settle();
     }
 
+    /// Waits for the paused window to have drawn all that it had to; the dialog of a spring swings on.
+    #[track_caller]
+    fn wait_for(&self, desk: &Desk) {
+        match self.studio.viewer.dialog() {
+            Some(Dialog::Spring { .. }) => desk.settles(),
+            _ => desk.still(),
+        }
+    }
+
     /// Types into the number of this name.
     #[track_caller]
     pub(crate) fn enter(&mut self, desk: &Desk, name: &str, number: &str) {
         let rect = self.find(name, |node| node.role() == Role::SpinButton);
         self.click_at(desk, rect.center());
-        desk.still();
+        self.wait_for(desk);
         for digit in number.chars() {
             desk.press(&digit.to_string());
             self.show([Event::Text(digit.to_string())]);

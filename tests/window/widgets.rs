@@ -184,7 +184,7 @@ pub(crate) fn a_typed_spring_is_advised_on_and_remembered() {
     desk.still();
     desk.press("s");
     for key in ["3", "Return", "Return"] {
-        desk.some_frames();
+        desk.settles();
         desk.press(key);
     }
     until("a run", || (!desk.title().contains("paused")).then_some(()));
