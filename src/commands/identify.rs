@@ -216,8 +216,8 @@ impl LogArgs {
 
 pub(super) fn run(args: &IdentifyArgs) -> Result<(), Error> {
     let file = LogFile::read(&args.log)?;
-    if let Some(found) = spin::answer(args, &file)? {
-        return args.format.print(&found);
+    if let Some(moments) = args.moments {
+        return args.format.print(&spin::answer(args, &file, moments)?);
     }
     let logs = logs(args, &file)?;
     let found = |log: &Log| identify(log, &args.read.body(args.mass), log.tick_hz());
@@ -254,7 +254,8 @@ fn logs(args: &IdentifyArgs, file: &LogFile) -> Result<Vec<(String, Log)>, Error
             };
             let bodies: Vec<_> = error.bodies.iter().filter_map(of).collect();
             if bodies.is_empty() {
-                return Err(refused(error));
+                let asked = spin::without_moments(args, file, &error);
+                return Err(asked.unwrap_or_else(|| refused(error)));
             }
             print_status(&error.to_string());
             bodies

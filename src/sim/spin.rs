@@ -53,6 +53,13 @@ pub(super) fn unit_attitude(q: &[f64]) -> DQuat {
     }
 }
 
+/// Returns the indices of the principal axes, from the least moment to the greatest.
+pub(super) fn axes_by_moment(moments: DVec3) -> [usize; 3] {
+    let mut axes = [0, 1, 2];
+    axes.sort_by(|a, b| moments[*a].total_cmp(&moments[*b]));
+    axes
+}
+
 /// Returns the quaternion 0, v.
 pub(super) fn pure(v: DVec3) -> DQuat {
     DQuat::from_xyzw(v.x, v.y, v.z, 0.0)

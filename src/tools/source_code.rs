@@ -38,11 +38,11 @@ impl MethodSource {
     /// Reads the lines of a method, which are on its [card](Method::code) or a person's own; `None` if it has none.
     pub fn of(method: &Method) -> Option<Self> {
         let text = method.own_text().unwrap_or(method.code);
-        match method.is_for_spin() {
-            true => StepText::read_spin(text).ok().map(Self),
-            false if text.is_empty() => None,
-            false => StepText::read(text).ok().map(Self),
+        if text.is_empty() {
+            return None;
         }
+        let read = if method.is_for_spin() { StepText::read_spin } else { StepText::read };
+        read(text).ok().map(Self)
     }
 
     /// Returns the function's inputs besides `x`, `v` and `h`.

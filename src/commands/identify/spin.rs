@@ -27,29 +27,44 @@ pub(super) fn moments(written: &str) -> Result<DVec3, String> {
     Ok(moments)
 }
 
-/// Returns what is found about a log of wx, wy and wz; `None` for a log of another motion.
-pub(super) fn answer(args: &IdentifyArgs, file: &LogFile) -> Result<Option<String>, Error> {
-    let (tick_hz, usual) = (args.tick_hz.or(args.step), args.read.table.options());
-    // Both logs have wy, because a log of one coordinate that does not change is refused.
-    let of = |x: &str| {
-        let [x, v] = [x, "wy"].map(|name| Some(name.to_owned()));
-        file.log(&TableOptions { x, v, ..usual.clone() }, tick_hz)
-    };
-    let has_no_x = |read: Result<Log, LogError>| {
-        read.err().is_some_and(|error| error.mistaken == Some(LogSetting::CoordinateColumn))
-    };
-    let is_other = || !has_no_x(file.log(&usual, tick_hz)) || has_no_x(of("wx"));
-    if args.moments.is_none() && (usual.x.is_some() || is_other()) {
-        return Ok(None);
+/// Reads the column `x` of a spin as a coordinate, with wy as its velocity. Every such log has wy, because a log of one
+/// coordinate that does not change is refused.
+fn log(args: &IdentifyArgs, file: &LogFile, x: &str) -> Result<Log, LogError> {
+    let [x, v] = [x, "wy"].map(|name| Some(name.to_owned()));
+    let options = TableOptions { x, v, ..args.read.table.options() };
+    file.log(&options, args.tick_hz.or(args.step))
+}
+
+/// Whether a log is refused because the column of its coordinate is missing.
+fn lacks_x(error: &LogError) -> bool {
+    error.mistaken == Some(LogSetting::CoordinateColumn)
+}
+
+/// Returns the error about a log of wx, wy and wz without moments, from the error about it as a log of x; `None` for a
+/// log of another motion.
+pub(super) fn without_moments(
+    args: &IdentifyArgs,
+    file: &LogFile,
+    error: &LogError,
+) -> Option<Error> {
+    if args.read.table.options().x.is_some() || !lacks_x(error) {
+        return None;
     }
-    let logs = [of("wx").map_err(refused)?, of("wz").map_err(refused)?];
-    let Some(moments) = args.moments else {
-        return Err(Error::mistake(format!(
+    match log(args, file, "wx").and_then(|_| log(args, file, "wz")) {
+        Err(error) if lacks_x(&error) => None,
+        Err(error) => Some(refused(error)),
+        Ok(_) => Some(Error::mistake(format!(
             "{}: wx, wy and wz are the spin of a body in space; give its moments of inertia about these axes, or their \
              ratios, with --moments I1,I2,I3",
             file.name
-        )));
-    };
+        ))),
+    }
+}
+
+/// Returns what is found about a log of wx, wy and wz, for these moments.
+pub(super) fn answer(args: &IdentifyArgs, file: &LogFile, moments: DVec3) -> Result<String, Error> {
+    let [xy, z] = [log(args, file, "wx"), log(args, file, "wz")];
+    let logs = [xy.map_err(refused)?, z.map_err(refused)?];
     let rows = logs[0].rows().iter().zip(logs[1].rows());
     let spin = |v: Option<f64>, x, z| DVec3::new(x, v.unwrap_or(0.0), z);
     let rows: Vec<_> = rows.map(|(xy, z)| (xy.tick, spin(xy.v, xy.x, z.x))).collect();
@@ -57,11 +72,11 @@ pub(super) fn answer(args: &IdentifyArgs, file: &LogFile) -> Result<Option<Strin
     let hz = logs[0].tick_hz();
     print_status(&format!("read {} rows at {hz} a second, columns wx, wy, wz", rows.len()));
     let found = identify_spin(rows, moments, hz);
-    let TableFormat::Json = args.format else { return Ok(Some(spin_text(found.as_ref()))) };
+    let TableFormat::Json = args.format else { return Ok(spin_text(found.as_ref())) };
     let mut object = object(found.as_ref(), &logs[0], args.mass);
     object["rest_m"] = Value::Null;
     if let Some(left_out) = object["read"]["left_out"].as_array_mut() {
         left_out.retain(|name| name != "wz");
     }
-    Ok(Some(format!("{object:#}\n")))
+    Ok(format!("{object:#}\n"))
 }

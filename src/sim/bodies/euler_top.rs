@@ -11,7 +11,7 @@ use std::f64::consts::{FRAC_PI_2, PI};
 use glam::{DQuat, DVec3};
 
 use crate::sim::double_double::DoubleDouble;
-use crate::sim::spin::{Spin, turn_by};
+use crate::sim::spin::{Spin, axes_by_moment, turn_by};
 
 /// Returns the state `t` (s) after `from`, for these principal moments (kg m²).
 pub(super) fn flow(moments: DVec3, from: &Spin, t: f64) -> Spin {
@@ -47,8 +47,7 @@ struct Top {
 
 impl Top {
     fn new(moments: DVec3, omega: DVec3) -> Self {
-        let mut order = [0, 1, 2];
-        order.sort_by(|a, b| moments[*a].total_cmp(&moments[*b]));
+        let mut order = axes_by_moment(moments);
         let s = {
             let part = |axis: usize, other: usize| {
                 let (i, w) = (moments[axis], omega[axis]);

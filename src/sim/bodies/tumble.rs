@@ -8,7 +8,8 @@ use glam::{DQuat, DVec3};
 use super::euler_top;
 use super::prelude::*;
 use crate::sim::spin::{
-    Spin, free_acceleration, free_jerk, pure, quaternion_at, seen_from, unit_attitude,
+    Spin, axes_by_moment, free_acceleration, free_jerk, pure, quaternion_at, seen_from,
+    unit_attitude,
 };
 
 pub(super) fn kind() -> Kind {
@@ -135,9 +136,7 @@ impl Tumble {
 
     /// Returns the indices of the principal axes, from the least moment to the greatest.
     pub fn axes_by_moment(&self) -> [usize; 3] {
-        let mut axes = [0, 1, 2];
-        axes.sort_by(|a, b| self.moments[*a].total_cmp(&self.moments[*b]));
-        axes
+        axes_by_moment(self.moments)
     }
 
     /// Returns the direction of L from the body, as seen along its middle axis. It is L/|L| along the axes of the least

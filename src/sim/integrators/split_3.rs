@@ -26,10 +26,9 @@ pub struct Split3;
 impl GyroRule for Split3 {
     fn step(h: f64, moments: DVec3, omega: DVec3) -> Turned {
         // The axis of the middle moment, and the others.
-        let mut axes = [0, 1, 2];
-        axes.sort_by(|a, b| moments[*a].total_cmp(&moments[*b]));
-        let lambda = 1.0 / moments[axes[1]];
-        let [a, b] = [axes[0].min(axes[2]), axes[0].max(axes[2])];
+        let [least, middle, greatest] = axes_by_moment(moments);
+        let lambda = 1.0 / moments[middle];
+        let [a, b] = [least.min(greatest), least.max(greatest)];
         let mut split = Split::new(moments, omega);
         for (axis, part) in [(a, 0.5), (b, 1.0), (a, 0.5)] {
             split.turn(axis, part * h * (1.0 / moments[axis] - lambda));

@@ -153,9 +153,10 @@ impl Printer {
             }
             self.print_function(file.names(body));
         }
-        match file.text.is_spin() {
-            true => self.print_spin(file),
-            false => self.print_step(file, &pascal),
+        if file.text.is_spin() {
+            self.print_spin(file);
+        } else {
+            self.print_step(file, &pascal);
         }
         if self.language == Language::CSharp {
             self.depth -= 1;

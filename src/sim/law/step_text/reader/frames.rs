@@ -57,7 +57,9 @@ impl<'t> Reader<'t> {
 
     /// Reads lines that are given numbers with these names.
     pub(super) fn read_named(mut self, names: &[&str], all: &[Statement]) -> Parsed<StepText> {
-        names.iter().for_each(|name| self.add_name(name, true));
+        for name in names {
+            self.add_name(name, true);
+        }
         self.values.fill(Some(0));
         self.carried = vec![X, V];
         self.read_inputs(all)?;
