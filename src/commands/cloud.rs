@@ -29,8 +29,8 @@ use crate::scene::{LaneSpec, Scene, SceneBody};
 
 const ABOUT: &str = "\
 The starts fill the shape evenly about the scene's start, in the plane of the coordinate and the
-velocity of its first body of one coordinate. The cloud ignores the scene's script. One row for each
-method:
+velocity of its first body of one coordinate. Those of a body that turns in space fill it on the
+sphere of the directions of its L. The cloud ignores the scene's script. One row for each method:
   points            the starts that have not blown up
   area_ratio        the area divided by the area at the start; empty if no point is left, or if the
                     cloud is too fine, folded or torn to measure
@@ -65,7 +65,7 @@ pub(super) struct CloudArgs {
     /// The reach of the shape
     ///
     /// In the unit of the coordinate. The default is a quarter of the swing; clouds in the window are small, and reach
-    /// twice as far.
+    /// twice as far. For a body that turns in space it is an angle, by default 0.05 rad.
     #[arg(long, value_name = "R", value_parser = reach)]
     reach: Option<f64>,
 
@@ -109,9 +109,7 @@ fn reach(written: &str) -> Result<f64, String> {
 fn no_cloud(why: NoCloud) -> Error {
     Error::mistake(match why {
         NoCloud::TooMany { .. } => format!("{why} --points"),
-        why => format!(
-            "{why}; give a scene with a body of one coordinate, such as pendulum, spring or duffing"
-        ),
+        why => format!("{why}; give another scene, such as pendulum, spring, duffing or coin"),
     })
 }
 

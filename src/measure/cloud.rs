@@ -5,7 +5,7 @@
 //! or tears the area.
 
 use crate::sim::batch::{Batch, InstructionSet, OneCoordinate, Ticks};
-use crate::sim::bodies::Kind;
+use crate::sim::bodies::{Kind, Tumble};
 use crate::sim::integrators::Family;
 use crate::sim::number::significant;
 use crate::sim::{State, Stepper, TickRate};
@@ -35,11 +35,16 @@ use crate::sim::Fnv;
 /// Default number of points of a cloud.
 pub const USUAL_POINTS: usize = 100_000;
 
+/// Half-width of a cloud on the sphere of the directions of L, in radians.
+const USUAL_TURN: f64 = 0.05;
+
 /// The reason why there is no cloud.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum NoCloud {
     /// The body has no phase plane, or several ones.
-    #[error("a cloud needs a body of one coordinate, and {body} has {coordinates}")]
+    #[error(
+        "a cloud needs a body of one coordinate, or one that turns in space, and {body} has {coordinates}"
+    )]
     SeveralCoordinates {
         /// Name of the body.
         body: String,
@@ -89,6 +94,9 @@ impl CloudStart {
     /// coordinate, by default a quarter of the swing. The half-width in velocity is `size` times the rate of the body's
     /// motion in this state.
     ///
+    /// The cloud of a body that turns in space is on the sphere of the [directions](Tumble::direction) of its L, and
+    /// `size` is an angle in radians.
+    ///
     /// # Errors
     /// If the body has several coordinates.
     pub fn about(
@@ -96,6 +104,12 @@ impl CloudStart {
         shape: CloudShape,
         size: Option<f64>,
     ) -> Result<Self, NoCloud> {
+        if let Some(tumble) = body.body().downcast_ref::<Tumble>() {
+            let middle = tumble.direction(body.v());
+            let across = (1.0 - middle[1] * middle[1]).sqrt();
+            let size = size.unwrap_or(USUAL_TURN);
+            return Ok(Self { shape, t: 0.0, middle, reach: [size / across, size * across] });
+        }
         let coordinates = body.q().len();
         if coordinates > 1 {
             return Err(NoCloud::SeveralCoordinates { body: name.into(), coordinates });

@@ -86,7 +86,7 @@ impl Ticks {
 }
 
 /// Advances the copies of a batch.
-trait Advance: Send {
+pub(in crate::sim) trait Advance: Send {
     /// Steps the copies with these coordinates and velocities through `ticks`.
     fn advance(&mut self, ticks: Ticks, q: &mut [f64], v: &mut [f64]);
 
@@ -173,6 +173,18 @@ impl Batch {
         assert!(set.is_available(), "this processor does not support {set:?}");
         let count = starts.len();
         let padded = count.next_multiple_of(PADDING);
+        let blocks = solver.method().and_then(|method| in_blocks(copies, method, set, padded));
+        let advance = blocks.or_else(|| one_by_one(copies, solver, count)).expect("a method");
+        Self::of(starts, advance)
+    }
+
+    /// Makes a batch of copies with these starts, which `advance` steps.
+    pub(in crate::sim) fn of(
+        starts: impl ExactSizeIterator<Item = State<f64>>,
+        advance: Box<dyn Advance>,
+    ) -> NewBatch {
+        let count = starts.len();
+        let padded = count.next_multiple_of(PADDING);
         let [mut q, mut v] = [Vec::new(), Vec::new()];
         q.try_reserve_exact(padded)?;
         v.try_reserve_exact(padded)?;
@@ -183,8 +195,6 @@ impl Batch {
         for numbers in [&mut q, &mut v] {
             numbers.resize(padded, numbers.last().copied().unwrap_or(0.0));
         }
-        let blocks = solver.method().and_then(|method| in_blocks(copies, method, set, padded));
-        let advance = blocks.or_else(|| one_by_one(copies, solver, count)).expect("a method");
         Ok(Self { q, v, count, advance })
     }
 
@@ -291,14 +301,18 @@ impl<S: System<Vector = f64>, const W: usize> System for UniformBlock<S, W> {
 ///
 /// Each part of neighbouring copies advances itself, so that one loop shares the work among threads for methods and
 /// bodies of every type.
-struct Chunks {
+pub(in crate::sim) struct Chunks {
     grain: usize,
     parts: Vec<Box<dyn Advance>>,
 }
 
 impl Chunks {
     /// Splits `count` copies into parts of `grain`; the last part may be smaller.
-    fn new(grain: usize, count: usize, part: impl FnMut(Range<usize>) -> Box<dyn Advance>) -> Self {
+    pub(in crate::sim) fn new(
+        grain: usize,
+        count: usize,
+        part: impl FnMut(Range<usize>) -> Box<dyn Advance>,
+    ) -> Self {
         let firsts = (0..count).step_by(grain);
         Self {
             grain,

@@ -12,6 +12,8 @@ use crate::sim::spin::{
     unit_attitude,
 };
 
+mod copies;
+
 pub(super) fn kind() -> Kind {
     let named =
         |name: &'static str, velocity: &'static str, unit| Coordinate::new(name, velocity, unit);
@@ -29,6 +31,7 @@ pub(super) fn kind() -> Kind {
         ]
         .into(),
         leading: "spin_x_rad_per_s".into(),
+        batch: copies::batch,
         ..Kind::checked(Tumble::default(), |mut blank, values| blank.check(values))
     }
 }
