@@ -36,6 +36,9 @@ each criterion, advise finds the fewest substeps per tick, 1 to 64:
                a swing, the motion stays within 5 % of its range
   accurate     over the scene no coordinate or velocity is off by more than 1 % of its amplitude
 
+A ball is judged by its bounces and a body that turns in space by its attitude and its flips, as
+`regatta help scenes` says.
+
 The answer is one method: one that looks right, or else is bounded, or else accurate. It has the lowest
 cost; if equal, the largest reserve, then a symplectic method before others, then the fewest substeps.
 Explicit Euler comes after every other method of its cost.

@@ -51,10 +51,12 @@ pub(super) struct CloudArgs {
     #[command(flatten)]
     experiment: ExperimentArgs,
 
-    /// Starts, 1 to 1000000000
-    #[arg(long, value_name = "N", default_value_t = USUAL_POINTS as u64)]
+    /// Starts, 1 to 1000000000 [default: 100000]
+    ///
+    /// For a body that turns in space the default is 10000.
+    #[arg(long, value_name = "N")]
     #[arg(value_parser = clap::value_parser!(u64).range(1..=1_000_000_000))]
-    points: u64,
+    points: Option<u64>,
 
     /// The shape of the starts: cat, disc or ring
     #[arg(long, value_name = "SHAPE", default_value = CloudShape::default().id())]
@@ -98,6 +100,9 @@ pub(super) struct CloudArgs {
     force: bool,
 }
 
+/// Cost of stepping a body that turns in space, roughly, in steps of a body of one coordinate.
+const SPINS_COST: usize = 10;
+
 /// Minimum reach of a cloud. A smaller cloud is lost in the rounding of its states.
 const MIN_REACH: f64 = 1e-6;
 
@@ -109,6 +114,7 @@ fn reach(written: &str) -> Result<f64, String> {
 fn no_cloud(why: NoCloud) -> Error {
     Error::mistake(match why {
         NoCloud::TooMany { .. } => format!("{why} --points"),
+        NoCloud::OverThePole { .. } => why.to_string(),
         why => format!("{why}; give another scene, such as pendulum, spring, duffing or coin"),
     })
 }
@@ -215,7 +221,8 @@ fn rows(
     let of = CloudBody { name: &of_scene.name, kind: &of_scene.kind, body: &*body };
     let start = CloudStart::about(of, args.shape, args.reach);
     let start = start.map_err(no_cloud)?;
-    let points = args.points as usize;
+    let usual = if start.is_on_sphere { USUAL_POINTS / SPINS_COST } else { USUAL_POINTS };
+    let points = args.points.map_or(usual, |points| points as usize);
     Cloud::find_room(points, specs).map_err(no_cloud)?;
     let cloud = |spec: &LaneSpec| {
         let cloud = Cloud::new(of, spec, start, points, scene.tick_hz);

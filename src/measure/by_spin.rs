@@ -2,9 +2,10 @@
 
 use std::ops::ControlFlow;
 
+use super::criterion::VISIBLE;
 use super::pace::Pace;
 use super::spin_finding::SpinFinding;
-use super::truth::{BodyTruth, FollowedBody, ticks};
+use super::truth::{BodyTruth, FollowedBody, LONG_RUN, ticks};
 use super::verdict::RunFailure;
 use crate::run::race::StopReason;
 use crate::sim::bodies::Tumble;
@@ -41,6 +42,75 @@ impl Flips {
     }
 }
 
+/// The axis of a body with the largest part of L, as it leans away from where L is at the start.
+struct Axis {
+    index: usize,
+    way: f64,
+    /// The lean in radians above which it has tipped over.
+    tipped: f64,
+}
+
+impl Axis {
+    /// Returns the axis of a body with these velocities, and those of its true states.
+    fn of<'s>(body: &Tumble, v: &[f64], true_v: impl Iterator<Item = &'s [f64]>) -> Self {
+        let momentum = body.momentum_in_body(v);
+        let index = momentum.abs().max_position();
+        let axis = Self { index, way: momentum[index].signum(), tipped: TIPPED };
+        let leans = true_v.map(|v| axis.lean(body, v));
+        Self { tipped: TIPPED.max(FARTHER * leans.fold(0.0, f64::max)), ..axis }
+    }
+
+    fn lean(&self, body: &Tumble, v: &[f64]) -> f64 {
+        let momentum = body.momentum_in_body(v);
+        libm::acos((self.way * momentum[self.index] / momentum.length()).clamp(-1.0, 1.0))
+    }
+}
+
+/// Whether a body gains no energy of its own in the long run, and does not tip over.
+pub(super) struct LongSpin {
+    pub(super) is_bounded: bool,
+    pub(super) is_too_much: bool,
+    pub(super) evaluations: u64,
+    pub(super) seconds: f64,
+}
+
+/// Runs the body of `truth` at this pace over the long run, with its inputs.
+pub(super) async fn follow_long_spin(
+    truth: &BodyTruth,
+    Pace { spec, tick_hz }: Pace,
+    max_work: u64,
+) -> LongSpin {
+    let series = truth.series(tick_hz).await;
+    let max_work = max_work.min(truth.meter.budget_left());
+    let mut followed = truth.follow(spec.solver(), spec.substeps, tick_hz).with_max_work(max_work);
+    let mut long = LongSpin {
+        is_bounded: false,
+        is_too_much: series.is_too_much,
+        evaluations: 0,
+        seconds: 0.0,
+    };
+    let Some(start) = followed.body.stepper.body().downcast_ref::<Tumble>().cloned() else {
+        return long;
+    };
+    let n = followed.body.stepper.q().len();
+    let within = 1..=ticks(truth.horizon_s, tick_hz);
+    let states = within.filter_map(|tick| Some(&series.at(tick)?[n..]));
+    let axis = Axis::of(&start, followed.body.stepper.v(), states);
+    let see = |body: &FollowedBody, tick: u64| {
+        (long.seconds, long.evaluations) = (tick_hz.seconds(tick), body.stepper.evaluations());
+        let gains = body.energy() > (1.0 + VISIBLE) * body.base_j;
+        match gains || axis.lean(&start, body.stepper.v()) > axis.tipped {
+            true => ControlFlow::Break(()),
+            false => ControlFlow::Continue(()),
+        }
+    };
+    let end = ticks(LONG_RUN * truth.horizon_s, tick_hz);
+    let stop = truth.run_until(&mut followed, end, see).await;
+    long.is_bounded = stop == StopReason::End;
+    long.is_too_much |= stop == StopReason::TooMuchWork;
+    long
+}
+
 /// Runs the body of `truth` at this pace over the horizon, with its inputs.
 pub(super) async fn follow_spin(
     truth: &BodyTruth,
@@ -56,16 +126,9 @@ pub(super) async fn follow_spin(
         return run;
     };
     let n = followed.body.stepper.q().len();
-    let of_axis = start.momentum_in_body(followed.body.stepper.v());
-    let axis = of_axis.abs().max_position();
-    let way = of_axis[axis].signum();
+    let states = (1..=end).filter_map(|tick| Some(&series.at(tick)?[n..]));
+    let axis = Axis::of(&start, followed.body.stepper.v(), states);
     let (mut own, mut exact) = (Flips::default(), Flips::default());
-    let lean = |body: &Tumble, v: &[f64]| {
-        let momentum = body.momentum_in_body(v);
-        libm::acos((way * momentum[axis] / momentum.length()).clamp(-1.0, 1.0))
-    };
-    let leans = (1..=end).filter_map(|tick| Some(lean(&start, &series.at(tick)?[n..])));
-    let tipped = TIPPED.max(FARTHER * leans.fold(0.0, f64::max));
     let (mut fastest, mut omega) = (0.0_f64, 0.0_f64);
     let found = &mut run.finding;
     found.energy = 1.0;
@@ -89,11 +152,11 @@ pub(super) async fn follow_spin(
         found.energy = if true_energy > 0.0 { energy / true_energy } else { 1.0 };
         let [l, true_l] = [(q, v), (true_q, true_v)].map(|(q, v)| body.momentum(q, v));
         found.momentum_turn = found.momentum_turn.max(Tumble::turn_between(l, true_l));
-        if found.tips_at_s.is_none() && lean(body, v) > tipped {
+        if found.tips_at_s.is_none() && axis.lean(body, v) > axis.tipped {
             found.tips_at_s = Some(t);
         }
-        own.add(t, spin[axis]);
-        exact.add(t, true_spin[axis]);
+        own.add(t, spin[axis.index]);
+        exact.add(t, true_spin[axis.index]);
         found.seconds = t;
         run.evaluations = stepper.evaluations();
         ControlFlow::Continue(())

@@ -81,6 +81,24 @@ fn steps_that_keep_the_brackets_of_l_keep_areas_of_its_sphere() {
 }
 
 #[test]
+fn a_cloud_of_spins_fits_its_sphere_or_is_refused() {
+    let of_t_handle = body("t-handle");
+    let start = |reach| CloudStart::about(of_t_handle.of(), CloudShape::Disc, Some(reach));
+    let Err(NoCloud::OverThePole { most, .. }) = start(4.0) else { panic!("it has room") };
+    assert!((0.3..1.6).contains(&most) && start(most).is_ok() && start(most + 0.01).is_err());
+    let mut wide = cloud("t-handle", "split-3", CloudShape::Disc, 500, 60);
+    wide.advance(1200);
+    // All around the sphere: the points are 1 from its middle, and began half of 0.05 √2 from theirs.
+    let spread = wide.measure().spread.unwrap();
+    assert!((5.0..1.001 / (0.05 / 2.0_f64.sqrt())).contains(&spread), "{spread}");
+    let text =
+        Scene::built_in("coin").unwrap().to_toml().replace("[2.0, 0.0, 30.0]", "[0.0, 0.0, 0.0]");
+    let at_rest = built(&Scene::parse("coin", &text).unwrap());
+    let found = CloudStart::about(at_rest.of(), CloudShape::Disc, None);
+    assert!(matches!(found, Err(NoCloud::AtRest { .. })), "{found:?}");
+}
+
+#[test]
 fn a_copy_of_a_spin_moves_as_the_body_with_that_spin() {
     let body = body("phone");
     let tumble: &Tumble = body.1.body().downcast_ref().unwrap();

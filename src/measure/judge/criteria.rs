@@ -4,7 +4,7 @@ use super::{Judge, without_truth};
 use crate::measure::bounce_finding::BounceFinding;
 use crate::measure::by_bounces::follow_bounces;
 use crate::measure::by_energy::follow_energy;
-use crate::measure::by_spin::follow_spin;
+use crate::measure::by_spin::{follow_long_spin, follow_spin};
 use crate::measure::change::bounded;
 use crate::measure::criterion::{Criterion, FREQUENCY_TOLERANCE, TOLERANCE, VISIBLE};
 use crate::measure::modes::{Modes, TooMuch};
@@ -61,6 +61,14 @@ impl Judge {
                 _ if truth.bounces() => {
                     let most = criterion.outcome();
                     self.bounces_within(truth, pace, |found| found.outcome() <= most).await
+                }
+                Criterion::Bounded if truth.spins() => {
+                    let run = follow_long_spin(truth, pace, self.max_work).await;
+                    match run.is_bounded {
+                        _ if run.is_too_much => Err(CriterionMiss::Unknown),
+                        true => Ok(run.evaluations as f64 / run.seconds),
+                        false => Err(CriterionMiss::Fails),
+                    }
                 }
                 _ if truth.spins() => {
                     let most = criterion.outcome();
