@@ -2,6 +2,8 @@
 
 use std::fmt;
 
+use super::integrators::Method;
+
 /// A wall, which the first coordinate of a body cannot pass.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Wall {
@@ -28,9 +30,25 @@ pub struct Impact {
 }
 
 impl Impact {
-    /// Whether the rule is the one that a lane has unless it says otherwise.
-    pub fn is_default(&self) -> bool {
-        self == <&Self>::default()
+    /// Returns the rule that a lane of this method has unless it says otherwise.
+    pub fn of(method: &Method) -> &'static Self {
+        let fits = |impact: &&Self| method.bounce().is_none() || impact.rule == Rule::Engine;
+        IMPACTS.iter().find(fits).unwrap_or_default()
+    }
+
+    /// Whether a lane of this method may have the rule. An engine with a rule of its own has no other.
+    pub fn fits(&self, method: &Method) -> bool {
+        method.bounce().is_some() == (self.rule == Rule::Engine)
+    }
+
+    /// Returns the reason why a lane of this method may not have the rule, in words; `None` if it may.
+    pub fn refusal(&self, method: &Method) -> Option<String> {
+        let why = match self.rule {
+            _ if self.fits(method) => return None,
+            Rule::Engine => "has none of its own that is known",
+            _ => "has one of its own, and no other",
+        };
+        Some(format!("the rule {self:?} is not for {}, which {why}", method.id))
     }
 
     /// Whether the rule makes a spring of the wall.
@@ -69,6 +87,8 @@ pub(super) enum Rule {
     BeforeTick,
     /// The wall is a spring.
     Penalty,
+    /// The whole tick is the engine's.
+    Engine,
 }
 
 /// How an impact within a step is found.
@@ -137,6 +157,8 @@ pub static IMPACTS: &[Impact] = impacts! {
         "the straight line gives the time of impact, the end of the step the speed; the method steps the rest";
     "penalty" None, Rule::Penalty,
         "no impact: a damped spring of 4.77 Hz pushes out of the floor";
+    "engine" None, Rule::Engine,
+        "the engine's own rule, with its slop and threshold; for lanes of Chipmunk, Jolt, Box2D, Rapier, pybullet and MuJoCo";
 };
 
 /// Returns the rule with this id.

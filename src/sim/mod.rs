@@ -24,6 +24,7 @@ mod impact;
 pub mod integrators;
 #[cfg(feature = "lab")]
 pub mod law;
+mod near_wall;
 #[cfg(feature = "lab")]
 mod net_plan;
 pub mod number;

@@ -359,9 +359,8 @@ impl System for Ball {
 }
 
 impl Body for Ball {
-    const CLASS: BodyClass = BodyClass::NoEngine(
-        "an engine bounces a ball by a rule of its own, with slop and thresholds",
-    );
+    const CLASS: BodyClass =
+        BodyClass::Ball("how it bounces a ball, with slop and thresholds, is not reproduced");
     const HAS_EXACT: bool = true;
     const HAS_WALLS: bool = true;
     const PARAMETERS: &'static [Of] = &PARAMETERS;
