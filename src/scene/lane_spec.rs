@@ -102,9 +102,9 @@ impl LaneSpec {
         format!("{name}{times}{within}{}{}", self.joint_suffix(lanes), self.impact_suffix(lanes))
     }
 
-    /// Returns the rule for impacts as a suffix, if one of `lanes` has another rule. An engine's own goes without saying.
+    /// Returns the rule for impacts as a suffix, if one of `lanes` has another rule. One that a method has by itself goes without saying.
     fn impact_suffix(&self, lanes: &[LaneSpec]) -> String {
-        let has_choice = |lane: &LaneSpec| lane.method.bounce().is_none();
+        let has_choice = |lane: &LaneSpec| <&Impact>::default().fits(lane.method);
         let mut others = lanes.iter().filter(|lane| has_choice(lane));
         let is_told = has_choice(self) && others.any(|lane| lane.impact != self.impact);
         if is_told { format!(", {}", self.impact.id) } else { String::new() }

@@ -153,6 +153,10 @@ impl<P: Clone, V: Vector> Bouncer<P, V> {
         }
         self.from.assign(y);
         self.inner.step(body, t, h, 1, y)?;
+        if self.rule == Rule::OwnLines {
+            self.notice(body, [t, h], y);
+            return Ok(());
+        }
         let Some(contact) = Contact::beyond(&body.system, t + h, y) else { return Ok(()) };
         match self.rule {
             Rule::Within(locating) => return self.locate(locating, body, [t, h], y),
@@ -183,9 +187,19 @@ impl<P: Clone, V: Vector> Bouncer<P, V> {
             Rule::Penalty if contact.height(&self.from) >= 0.0 => {
                 self.bounces.land(t + h, [contact.speed(y), f64::NAN]);
             }
-            Rule::BeforeTick | Rule::Penalty | Rule::Engine => {}
+            Rule::BeforeTick | Rule::Penalty | Rule::Engine | Rule::OwnLines => {}
         }
         Ok(())
+    }
+
+    /// Records an impact if the method itself has turned the body in the step from `self.from` to `y`.
+    fn notice<B: Body<Vector = V>>(&mut self, body: &Counted<B>, [t, h]: [f64; 2], y: &State<V>) {
+        let is_turned = |it: &Contact| it.speed(&self.from) < 0.0 && it.speed(y) >= 0.0;
+        if let Some(contact) = Contact::all(&body.system, t + h).find(is_turned) {
+            let before = contact.speed(&self.from);
+            self.bounces.land(t + h, [before, contact.speed(y)]);
+            self.bounces.beyond = (contact.height(&self.from) + h * before).abs();
+        }
     }
 
     /// Records an impact at time `t` (s), after which the method starts afresh.

@@ -1,11 +1,13 @@
-//! Compares the height of a jump with that of the exact motion.
+//! Compares the heights of a jump or of bounces with those of the exact motion.
 
 use glam::DVec2;
 
 use super::moment::DrawContext;
 use super::sketch::Camera;
 use super::{Align, Picture, captions};
-use crate::run::past::SweptRange;
+use crate::look::palette::fade;
+use crate::run::METRICS;
+use crate::run::past::{Sample, SweptRange};
 use crate::run::race::Entrant;
 use crate::sim::Bounces;
 use crate::sim::number::significant;
@@ -15,6 +17,14 @@ const APEX: f32 = 34.0;
 /// Gap between the mark and its words, and width of a letter, in points.
 const GAP: f32 = 8.0;
 const LETTER: f32 = 7.0;
+
+/// Width and pitch of the bars of bounces, their distance from the floor and from the edge, and the size and the place
+/// below them of their numbers, in points. Fewest bars for which there must be room.
+const BAR: f32 = 11.0;
+const PITCH: f32 = 17.0;
+const ASIDE: f32 = 18.0;
+const NUMBER: f32 = 10.0;
+const FEWEST: usize = 3;
 
 /// Height (m) of the last jump in the swept ranges; `None` until the body has come down again.
 fn apex(swept: impl Iterator<Item = SweptRange>) -> Option<f64> {
@@ -76,6 +86,77 @@ pub(super) fn draw(
     let Some(words) = [whole, differs].into_iter().find(fits) else { return };
     let label = captions::text(moment.palette, at, Align::Right, 13.0, moment.palette.text, words);
     picture.labels.push(label.strong());
+}
+
+/// Returns the heights (m) of the flights between impacts, each with the number of impacts before it. The present flight
+/// is the last, once it has a height.
+fn flights<'s>(samples: impl Iterator<Item = &'s Sample>) -> Vec<(u64, f64)> {
+    let column = |id: &str| METRICS.iter().position(|metric| metric.id == id);
+    let (Some(impacts), Some(apex)) = (column("impacts"), column("apex")) else {
+        return Vec::new();
+    };
+    let (mut found, mut at_first) = (Vec::<(u64, f64)>::new(), f64::NAN);
+    for Sample { metrics, .. } in samples.filter(|it| it.metrics[impacts] >= 1.0) {
+        let (n, height) = (metrics[impacts] as u64, metrics[apex]);
+        match found.last_mut() {
+            Some((last, known)) if *last == n => *known = height,
+            _ => {
+                at_first = height;
+                found.push((n, height));
+            }
+        }
+    }
+    // Until its peak, the height is that of the flight before.
+    found.pop_if(|(_, height)| height.to_bits() == at_first.to_bits());
+    found
+}
+
+/// Draws a bar for each bounce beside the floor, which ends at `floor_m`: the exact height hollow, that of the lane in
+/// front full, those of others as strokes.
+pub(super) fn strip(
+    picture: &mut Picture,
+    camera: &Camera,
+    (moment, floor_m): (&DrawContext<'_>, f64),
+    (lanes, front): (&[&Entrant], &Entrant),
+    index: usize,
+) {
+    let truth = &moment.studio.race().truth().bodies()[index].stepper;
+    let since_s = moment.studio.past().changed_s();
+    let of = |lane: &Entrant| flights(moment.history(lane, index).since(since_s));
+    let [left, floor] = camera.points(DVec2::new(floor_m, 0.0));
+    let room = (camera.rect.max[0] - 2.0 * ASIDE - left) / PITCH;
+    let (most, own) = (room.max(0.0) as usize, of(front));
+    if most < FEWEST {
+        return;
+    }
+    let head = captions::foot_of_verdicts(camera.rect) + NUMBER;
+    let top = |height: f64| camera.points(DVec2::new(0.0, height))[1].clamp(head, floor);
+    let others = lanes.iter().filter(|lane| lane.id != front.id);
+    let others: Vec<_> =
+        others.map(|lane| (of(lane), moment.style(moment.studio.entry(lane)).0)).collect();
+    let (colour, _) = moment.style(moment.studio.entry(front));
+    let shown = &own[own.len().saturating_sub(most)..];
+    for ((n, height), place) in shown.iter().zip(0_u8..) {
+        let x = left + ASIDE + PITCH * f32::from(place);
+        let sides = [x, x + BAR];
+        let bar = |y: f32| [[sides[0], floor], [sides[0], y], [sides[1], y], [sides[1], floor]];
+        let pen = &mut picture.pen(camera.rect);
+        if height.is_finite() {
+            pen.fill(&bar(top(*height)), fade(colour, 0.6));
+        }
+        for (heights, colour) in &others {
+            if let Some((_, height)) = heights.iter().find(|(other, _)| other == n) {
+                let y = top(*height);
+                pen.line([sides[0], y], [sides[1], y], 1.6, *colour);
+            }
+        }
+        if let Some([_, exact]) = truth.true_bounce(*n) {
+            pen.ring(&bar(top(exact)), 1.2, moment.palette.exact);
+        }
+        let at = [x + BAR / 2.0, floor + NUMBER];
+        let (words, dim) = (n.to_string(), moment.palette.text);
+        picture.labels.push(captions::text(moment.palette, at, Align::Centre, NUMBER, dim, words));
+    }
 }
 
 #[cfg(test)]

@@ -2,6 +2,7 @@
 
 use serde_json::{Map, Value, json};
 
+use super::impact::{ImpactAdvice, exact_code};
 use super::judged::{Row, advised, best_rows, recommended_row};
 use crate::commands::output::table::{self, Column};
 use crate::measure::{
@@ -25,7 +26,14 @@ pub(super) fn answer(
     language: Option<Language>,
 ) -> String {
     let mut text = recommendations(scene, adviser, rows, wanted);
-    if let Some(code) = language.and_then(|language| code(adviser, rows, language)) {
+    if let Some(impact) = ImpactAdvice::of(scene, adviser, rows) {
+        text += &impact.line();
+    }
+    let code = language.and_then(|language| match exact_code(scene, language) {
+        Some(code) => Some(format!("In place of the step and the line after it:\n\n{code}")),
+        None => code(adviser, rows, language),
+    });
+    if let Some(code) = code {
         text += &format!("\n{code}");
     }
     text
@@ -143,7 +151,7 @@ pub(super) fn object(scene: &Scene, adviser: &Adviser, rows: &[Row], wanted: usi
         };
         (criterion.id().to_owned(), take)
     });
-    json!({
+    let mut object = json!({
         "scene": scene.name,
         "tick_hz": adviser.tick_hz(),
         "horizon_s": adviser.judge().horizon_s(),
@@ -152,7 +160,11 @@ pub(super) fn object(scene: &Scene, adviser: &Adviser, rows: &[Row], wanted: usi
         "methods": rows.iter().map(method).collect::<Vec<_>>(),
         "recommended": recommended.collect::<Map<_, _>>(),
         "take": criterion_to_take(&advised(rows)).map(|criterion| CRITERIA[criterion].id()),
-    })
+    });
+    if let Some(impact) = ImpactAdvice::of(scene, adviser, rows) {
+        object["impact"] = impact.object();
+    }
+    object
 }
 
 fn method(row: &Row) -> Value {

@@ -286,6 +286,8 @@ pub struct Method {
     pub keeps_time: bool,
     /// The bodies that the method steps; `None` if it steps every body.
     pub only: Option<Only>,
+    /// Whether a person's own lines of the method turn a body at a floor at 0.
+    pub has_own_floor: bool,
     /// The number of substeps of a lane that sets none.
     pub default_substeps: u32,
     /// The engine whose tick the method reproduces; `None` for any other method.
@@ -453,6 +455,7 @@ const PLAIN: Method = Method {
     restart: None,
     keeps_time: true,
     only: None,
+    has_own_floor: false,
     default_substeps: 1,
     engine: None,
     follower: None,

@@ -39,7 +39,7 @@ const LOGS: [(&str, f64, &str); 5] = [
     ("engine-jolt", 2e-5, include_str!("../../data/bounces/engine-jolt.csv")),
     ("engine-box2d", 5e-5, include_str!("../../data/bounces/engine-box2d.csv")),
     ("engine-rapier", 5e-5, include_str!("../../data/bounces/engine-rapier.csv")),
-    ("engine-pybullet", 1e-8, include_str!("../../data/bounces/engine-pybullet.csv")),
+    ("engine-pybullet", 1e-6, include_str!("../../data/bounces/engine-pybullet.csv")),
 ];
 
 #[test]
