@@ -122,7 +122,7 @@ impl<P: Clone, V: Vector> Bouncer<P, V> {
             // An engine may turn the ball above the wall, where it expects an impact within the tick.
             let part = (before.height / (-h * before.speed)).clamp(0.0, 1.0);
             self.bounces.land(t + h * part, [before.speed, ball.speed]);
-            self.bounces.beyond = -ball.height;
+            self.bounces.beyond = before.height.abs();
         }
     }
 

@@ -161,6 +161,7 @@ pub(super) fn strip(
 
 #[cfg(test)]
 mod tests {
+    use super::flights;
     use crate::scene::Scene;
     use crate::stage::compose;
     use crate::studio::{StageCommand, Studio};
@@ -186,5 +187,23 @@ mod tests {
                 assert!((found - percent).abs() < 0.6, "{said:?}");
             }
         }
+    }
+
+    #[test]
+    fn a_strip_has_a_bar_for_each_bounce_of_a_ball() {
+        let mut studio = Studio::new(Scene::built_in("perpetual").unwrap());
+        (0..420).for_each(|_| studio.tick());
+        let found = flights(studio.past().histories(studio.deck.selected().id)[0].since(0.0));
+        let numbers: Vec<u64> = found.iter().map(|(n, _)| *n).collect();
+        assert_eq!(numbers, [1, 2, 3, 4, 5, 6, 7]);
+        // Velocity Verlet with a clamp reaches these heights.
+        for (n, wanted) in [(1, 1.022043017), (5, 1.176759684)] {
+            assert!((found[n - 1].1 - wanted).abs() < 1e-9, "{found:?}");
+        }
+        let labels = compose(&studio, [780.0, 440.0]).labels;
+        assert!((1..8).all(|n| labels.iter().any(|label| label.text == n.to_string())));
+        // On a narrow stage there is no room for bars.
+        let narrow = compose(&studio, [160.0, 440.0]).labels;
+        assert!(!narrow.iter().any(|label| label.text == "7"));
     }
 }

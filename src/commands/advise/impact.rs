@@ -5,18 +5,17 @@ use serde_json::{Value, json};
 use super::judged::{Row, advised, recommended_row};
 use crate::measure::{Adviser, CRITERIA, Verdict, criterion_to_take};
 use crate::scene::{LaneSpec, Scene};
-use crate::sim::Impact;
 use crate::sim::integrators::method;
-use crate::sim::number::significant;
+use crate::sim::{Impact, TickRate};
 use crate::tools::source_code::{Language, impact_code_for};
 
 /// A method with a rule that fits it.
 pub(super) struct ImpactAdvice {
     spec: LaneSpec,
     criterion: usize,
-    /// The lane with which the scene opens, if it has another rule.
+    /// The lane of a person's own lines or with which the scene opens, if it has another rule.
     yours: Option<(LaneSpec, Verdict)>,
-    tick_hz: String,
+    tick_hz: TickRate,
 }
 
 impl ImpactAdvice {
@@ -34,10 +33,11 @@ impl ImpactAdvice {
         let met = |criterion: usize| Some((criterion, found.met[criterion].met()?.substeps));
         let (criterion, substeps) = (0..CRITERIA.len()).rev().find_map(met)?;
         let spec = LaneSpec { substeps, ..found.spec };
-        let opening = *scene.opening_lane();
-        let yours = (opening.impact != exact).then(|| (opening, adviser.verdict(opening)));
-        let tick_hz = significant(adviser.tick_hz().hz(), 4);
-        Some(Self { spec, criterion, yours, tick_hz })
+        // Lines of a person's own come before the lane with which the scene opens.
+        let mut judged = rows.iter().map(|row| row.advised.spec);
+        let own = judged.find(|lane| lane.method.has_own_floor).unwrap_or(*scene.opening_lane());
+        let yours = (own.impact != exact).then(|| (own, adviser.verdict(own)));
+        Some(Self { spec, criterion, yours, tick_hz: adviser.tick_hz() })
     }
 
     /// Returns the advice in a line.
@@ -49,9 +49,10 @@ impl ImpactAdvice {
         let beside = yours.as_ref().map(|(lane, verdict)| {
             let own = match lane.method == spec.method {
                 true => lane.impact.id.to_owned(),
+                false if lane.method.has_own_floor => lane.method.id.to_owned(),
                 false => format!("{} with {}", lane.method.id, lane.impact.id),
             };
-            format!("; your {own} at {tick_hz} Hz: {verdict}")
+            format!("; your {own} at {tick_hz:.3} Hz: {verdict}")
         });
         let beside = beside.unwrap_or_default();
         format!("{method} with {rule}: {met} at {} {steps}{beside}\n", spec.substeps)

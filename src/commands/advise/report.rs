@@ -9,7 +9,7 @@ use crate::measure::{
     Adviser, CRITERIA, CriterionMet, CriterionResult, MAX_ADVISED_SUBSTEPS, Recommendation,
     TAKEN_FOR, criterion_to_take,
 };
-use crate::scene::Scene;
+use crate::scene::{LaneSpec, Scene};
 use crate::tools::source_code;
 use crate::tools::source_code::{Language, Precision};
 
@@ -186,6 +186,9 @@ fn method(row: &Row) -> Value {
         "verdict": row.advised.verdict,
         "criteria": criteria.collect::<Map<_, _>>(),
     });
+    if let Some(impact) = row.advised.spec.own_impact() {
+        object["impact"] = impact.id.into();
+    }
     if let Some(rates) = &row.rates {
         let rates = CRITERIA.iter().zip(rates).map(|(c, hz)| (c.id().to_owned(), json!(hz)));
         object["rates"] = Value::Object(rates.collect());
@@ -193,13 +196,19 @@ fn method(row: &Row) -> Value {
     object
 }
 
+/// Returns the method of a row, with its rule for impacts if that does not go without saying.
+fn named(row: &Row) -> String {
+    let LaneSpec { method, .. } = row.advised.spec;
+    row.advised.spec.own_impact().map_or(method.id.into(), |it| format!("{}, {}", method.id, it.id))
+}
+
 const VERDICTS: &[Column<Row>] = &[
-    Column::shown("method", "METHOD", |row| json!(row.advised.spec.method.id)),
+    Column::shown("method", "METHOD", |row| json!(named(row))),
     Column::shown("verdict", "VERDICT", |row| json!(row.advised.verdict.to_string())),
 ];
 
 const BEST: &[Column<Row>] = &[
-    Column::shown("method", "METHOD", |row| json!(row.advised.spec.method.id)),
+    Column::shown("method", "METHOD", |row| json!(named(row))),
     Column::shown("bounded", "BOUNDED", |row| cost(row, 0)),
     Column::shown("looks-right", "LOOKS-RIGHT", |row| cost(row, 1)),
     Column::shown("accurate", "ACCURATE", |row| cost(row, 2)),
@@ -215,7 +224,7 @@ fn cost(row: &Row, criterion: usize) -> Value {
 }
 
 const RATES: &[Column<Row>] = &[
-    Column::shown("method", "METHOD", |row| json!(row.advised.spec.method.id)),
+    Column::shown("method", "METHOD", |row| json!(named(row))),
     Column::shown("bounded", "BOUNDED", |row| rate(row, 0)),
     Column::shown("looks-right", "LOOKS-RIGHT", |row| rate(row, 1)),
     Column::shown("accurate", "ACCURATE", |row| rate(row, 2)),
