@@ -163,7 +163,8 @@ pub(super) static SPEC: [Key<SpecDraft, LaneSpec>; 6] = [
     },
 ];
 
-/// Reads a lane, whose rule for impacts is `impact` by default if its method can have it. Reports settings that the lane's method does not take.
+/// Reads a lane, whose rule for impacts is `impact` by default if its method can have it. Reports settings that the
+/// lane's method does not take.
 pub(super) fn read_lane_spec(row: &mut Table<'_>, impact: &'static Impact) -> Option<LaneSpec> {
     let mut draft = SpecDraft::default();
     Key::read_all(&SPEC, &mut draft, row);

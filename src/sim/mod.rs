@@ -21,6 +21,7 @@ mod exact_flow;
 mod exact_since_start;
 mod fnv;
 mod impact;
+mod impact_of_method;
 pub mod integrators;
 #[cfg(feature = "lab")]
 pub mod law;

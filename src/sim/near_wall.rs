@@ -1,7 +1,7 @@
 //! The steps in which physics engines bounce a ball on a fixed wall, one for each [`EngineBounce`].
 //!
-//! They are held against logs of the engines (`tests/library/engines/bounces.rs`). Heights are those of the ball's lowest
-//! point above the wall.
+//! They are held against logs of the engines (`tests/library/engines/bounces.rs`). Heights are those of the ball's
+//! lowest point above the wall.
 
 use std::f64::consts::PI;
 

@@ -5,6 +5,7 @@ use glam::DVec2;
 use super::moment::DrawContext;
 use super::sketch::Camera;
 use super::{Align, Picture, captions};
+use crate::look::Framing;
 use crate::look::palette::fade;
 use crate::run::METRICS;
 use crate::run::past::{Sample, SweptRange};
@@ -88,8 +89,8 @@ pub(super) fn draw(
     picture.labels.push(label.strong());
 }
 
-/// Returns the heights (m) of the flights between impacts, each with the number of impacts before it. The present flight
-/// is the last, once it has a height.
+/// Returns the heights (m) of the flights between impacts, each with the number of impacts before it. The present
+/// flight is the last, once it has a height.
 fn flights<'s>(samples: impl Iterator<Item = &'s Sample>) -> Vec<(u64, f64)> {
     let column = |id: &str| METRICS.iter().position(|metric| metric.id == id);
     let (Some(impacts), Some(apex)) = (column("impacts"), column("apex")) else {
@@ -111,19 +112,23 @@ fn flights<'s>(samples: impl Iterator<Item = &'s Sample>) -> Vec<(u64, f64)> {
     found
 }
 
-/// Draws a bar for each bounce beside the floor, which ends at `floor_m`: the exact height hollow, that of the lane in
+/// Draws a bar for each bounce of a body with walls, beside its floor: the exact height hollow, that of the lane in
 /// front full, those of others as strokes.
 pub(super) fn strip(
     picture: &mut Picture,
     camera: &Camera,
-    (moment, floor_m): (&DrawContext<'_>, f64),
+    (moment, framing): (&DrawContext<'_>, Framing),
     (lanes, front): (&[&Entrant], &Entrant),
     index: usize,
 ) {
-    let truth = &moment.studio.race().truth().bodies()[index].stepper;
+    let truth = &moment.studio.race().truth().bodies()[index];
+    let Framing::Fixed { half_m, .. } = framing else { return };
+    if !truth.kind.has_walls {
+        return;
+    }
     let since_s = moment.studio.past().changed_s();
     let of = |lane: &Entrant| flights(moment.history(lane, index).since(since_s));
-    let [left, floor] = camera.points(DVec2::new(floor_m, 0.0));
+    let [left, floor] = camera.points(DVec2::new(half_m.x, 0.0));
     let room = (camera.rect.max[0] - 2.0 * ASIDE - left) / PITCH;
     let (most, own) = (room.max(0.0) as usize, of(front));
     if most < FEWEST {
@@ -150,7 +155,7 @@ pub(super) fn strip(
                 pen.line([sides[0], y], [sides[1], y], 1.6, *colour);
             }
         }
-        if let Some([_, exact]) = truth.true_bounce(*n) {
+        if let Some([_, exact]) = truth.stepper.true_bounce(*n) {
             pen.ring(&bar(top(exact)), 1.2, moment.palette.exact);
         }
         let at = [x + BAR / 2.0, floor + NUMBER];
