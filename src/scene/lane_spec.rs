@@ -102,8 +102,8 @@ impl LaneSpec {
         format!("{name}{times}{within}{}{}", self.joint_suffix(lanes), self.impact_suffix(lanes))
     }
 
-    /// Returns the rule for impacts as a suffix, if one of `lanes` has another rule. One that a method has by itself goes
-    /// without saying.
+    /// Returns the rule for impacts as a suffix, if one of `lanes` has another rule. One that a method has by itself
+    /// goes without saying.
     fn impact_suffix(&self, lanes: &[LaneSpec]) -> String {
         let has_choice = |lane: &LaneSpec| <&Impact>::default().fits(lane.method);
         let mut others = lanes.iter().filter(|lane| has_choice(lane));
