@@ -27,6 +27,9 @@ const ASIDE: f32 = 18.0;
 const NUMBER: f32 = 10.0;
 const FEWEST: usize = 3;
 
+/// A flight of so many ticks has a peak, even one of the same height as the flight before.
+const LEAST_TICKS: u32 = 4;
+
 /// Height (m) of the last jump in the swept ranges; `None` until the body has come down again.
 fn apex(swept: impl Iterator<Item = SweptRange>) -> Option<f64> {
     let (mut most_m, mut is_down) = (0.0, false);
@@ -90,25 +93,29 @@ pub(super) fn draw(
 }
 
 /// Returns the heights (m) of the flights between impacts, each with the number of impacts before it. The present
-/// flight is the last, once it has a height.
+/// flight is the last, once it has a height. Hops without a peak are left out.
 fn flights<'s>(samples: impl Iterator<Item = &'s Sample>) -> Vec<(u64, f64)> {
     let column = |id: &str| METRICS.iter().position(|metric| metric.id == id);
     let (Some(impacts), Some(apex)) = (column("impacts"), column("apex")) else {
         return Vec::new();
     };
-    let (mut found, mut at_first) = (Vec::<(u64, f64)>::new(), f64::NAN);
+    let (mut found, mut at_first, mut ticks) = (Vec::<(u64, f64)>::new(), f64::NAN, 0);
+    let is_new = |height: f64, at_first: f64| height.to_bits() != at_first.to_bits();
     for Sample { metrics, .. } in samples.filter(|it| it.metrics[impacts] >= 1.0) {
         let (n, height) = (metrics[impacts] as u64, metrics[apex]);
-        match found.last_mut() {
-            Some((last, known)) if *last == n => *known = height,
-            _ => {
-                at_first = height;
-                found.push((n, height));
-            }
+        ticks += 1;
+        if let Some((last, known)) = found.last_mut()
+            && *last == n
+        {
+            *known = height;
+            continue;
         }
+        found.pop_if(|(_, known)| ticks <= LEAST_TICKS && !is_new(*known, at_first));
+        (at_first, ticks) = (height, 0);
+        found.push((n, height));
     }
     // Until its peak, the height is that of the flight before.
-    found.pop_if(|(_, height)| height.to_bits() == at_first.to_bits());
+    found.pop_if(|(_, height)| !is_new(*height, at_first));
     found
 }
 
@@ -192,6 +199,15 @@ mod tests {
                 assert!((found - percent).abs() < 0.6, "{said:?}");
             }
         }
+    }
+
+    #[test]
+    fn a_ball_that_lies_on_its_floor_has_no_bars() {
+        let mut studio = Studio::new(Scene::built_in("landing").unwrap());
+        (0..45).for_each(|_| studio.tick());
+        let lane = studio.deck.selected();
+        assert!(lane.lane.bodies()[0].stepper.bounces().unwrap().impacts > 5);
+        assert_eq!(flights(studio.past().histories(lane.id)[0].since(0.0)), []);
     }
 
     #[test]
