@@ -27,7 +27,7 @@ const ASIDE: f32 = 18.0;
 const NUMBER: f32 = 10.0;
 const FEWEST: usize = 3;
 
-/// A flight of so many ticks has a peak, even one of the same height as the flight before.
+/// A longer flight, in ticks, has a peak, even one of the same height as the flight before.
 const LEAST_TICKS: u32 = 4;
 
 /// Height (m) of the last jump in the swept ranges; `None` until the body has come down again.
