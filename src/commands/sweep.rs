@@ -201,8 +201,11 @@ impl SweepArgs {
             }
         }
         if let Some(impact) = self.impact {
+            if let Some(refusal) = self.methods.iter().find_map(|method| impact.refusal(method)) {
+                return Err(Error::mistake(format!("--impact: {refusal}")));
+            }
             let lanes = scenes.iter_mut().flat_map(|(_, scene)| &mut scene.lanes);
-            lanes.for_each(|lane| lane.impact = impact);
+            lanes.for_each(|lane| *lane = lane.with_impact(impact));
         }
         let asked = |method: &&Method| match &self.methods[..] {
             [] => method.is_for_games() || method.rule_fps().is_some(),

@@ -22,7 +22,7 @@ type Of = ParameterOf<Ball>;
 
 const CEILING: &str = "ceiling_m";
 
-const PARAMETERS: [Of; 7] = [
+const PARAMETERS: [Of; 8] = [
     Of::number("height_m", Range::NON_NEGATIVE, |ball| &mut ball.height)
         .at_start()
         .named("height at start")
@@ -50,10 +50,13 @@ const PARAMETERS: [Of; 7] = [
         .or(4.905)
         .symbol("K")
         .about("the change of velocity by one kick"),
+    Of::number("penalty_hz", Range::POSITIVE, |ball| &mut ball.penalty_hz)
+        .or(SOFT_HZ)
+        .about("the frequency of the spring that the rule `penalty` makes of a wall"),
 ];
 
-/// √k of a soft wall, in radians per second, at 4.77 Hz.
-const SOFT: f64 = 30.0;
+/// Frequency of a soft wall in hertz, unless the body has another: k = 900 per second squared.
+const SOFT_HZ: f64 = 4.77;
 
 /// The largest number of flights that a truth follows one by one. After more flights the state is not known: under drag
 /// alone their number grows exponentially with time.
@@ -95,6 +98,8 @@ pub struct Ball {
     pub ceiling: f64,
     /// K, the change of velocity by one kick, in metres per second.
     pub kick: f64,
+    /// Frequency in hertz of the spring that a soft wall is; 0 is 4.77.
+    pub penalty_hz: f64,
     /// Whether the walls are springs, as under the rule `penalty`.
     pub is_soft: bool,
     /// A memory that saves work and changes nothing.
@@ -347,8 +352,10 @@ impl System for Ball {
         if self.is_soft {
             let log = libm::log(self.restitution.max(1e-300));
             let turn = std::f64::consts::PI;
-            let damping = -2.0 * SOFT * log / (turn * turn + log * log).sqrt();
-            let push = |depth: f64, v: f64| (SOFT * SOFT * depth - damping * v).max(0.0);
+            let hz = if self.penalty_hz > 0.0 { self.penalty_hz } else { SOFT_HZ };
+            let soft = 2.0 * turn * hz;
+            let damping = -2.0 * soft * log / (turn * turn + log * log).sqrt();
+            let push = |depth: f64, v: f64| (soft * soft * depth - damping * v).max(0.0);
             if *y < 0.0 {
                 *a += push(-y, *v);
             } else if self.ceiling > 0.0 && *y > self.ceiling {
@@ -359,9 +366,8 @@ impl System for Ball {
 }
 
 impl Body for Ball {
-    const CLASS: BodyClass = BodyClass::NoEngine(
-        "an engine bounces a ball by a rule of its own, with slop and thresholds",
-    );
+    const CLASS: BodyClass =
+        BodyClass::Ball("how it bounces a ball, with slop and thresholds, is not reproduced");
     const HAS_EXACT: bool = true;
     const HAS_WALLS: bool = true;
     const PARAMETERS: &'static [Of] = &PARAMETERS;

@@ -22,6 +22,7 @@ pub(super) const CARD: Method = Method {
             "Engine.physics_ticks_per_second = {hz} # step {n} times with dt / {n}: Godot has no substeps, and whole ticks",
         ),
         // This is the map of Godot's bodies in space.
+        bounce: None,
         free_spin: Some(FreeSpin::of(SpinMap::Constant)),
         version: "4.x",
         logged: None,
