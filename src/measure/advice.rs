@@ -129,7 +129,7 @@ impl Adviser {
         tick_hz: TickRate,
         meter: Arc<Meter>,
     ) -> Self {
-        let judge = Judge::find(&scene, throttle, 0.0, horizon_s(&scene), meter).await;
+        let judge = Judge::find(&scene, throttle, horizon_s(&scene), meter).await;
         let stiffer = std::array::from_fn(|_| Once::default());
         Self { scene, judge, tick_hz, stiffer }
     }
@@ -424,8 +424,7 @@ impl Adviser {
         let find = async {
             let scene = self.stiffen(fine_factor(index))?;
             let (throttle, horizon_s) = (self.judge.throttle(), self.judge.horizon_s());
-            let judge =
-                Judge::find(&scene, throttle, 0.0, horizon_s, self.judge.meter().clone()).await;
+            let judge = Judge::find(&scene, throttle, horizon_s, self.judge.meter().clone()).await;
             Some(judge.within(WORK_WHEN_STIFFER))
         };
         self.stiffer[index].get(find).await.as_ref()

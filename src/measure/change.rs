@@ -111,7 +111,7 @@ mod tests {
         let scene = Scene::parse("t", text).unwrap();
         let spec = LaneSpec::plain(method("velocity-verlet").unwrap());
         let body = &scene.bodies[0];
-        let truth = block_on(BodyTruth::find(body, &[], 1.0, 0.0, scene.seconds, Arc::default()));
+        let truth = block_on(BodyTruth::find(body, &[], 1.0, scene.seconds, Arc::default()));
         let run =
             block_on(follow(&truth, Pace { spec, tick_hz: 60.into() }, Until::LongRun, MAX_WORK));
         (truth, run)

@@ -36,6 +36,7 @@ pub struct Judge {
     horizon_s: f64,
     throttle: f64,
     max_work: u64,
+    begins_later: bool,
     truths: Vec<BodyTruth>,
     /// Truths over their first swings, for bodies that make too few swings within the horizon. Each truth is computed
     /// on first use.
@@ -65,7 +66,7 @@ impl Judge {
     /// Like [`Judge::new`], over `horizon_s` simulated seconds, which must be positive and may exceed the scene's
     /// length.
     pub fn over(scene: &Scene, horizon_s: f64) -> Self {
-        block_on(Self::find(scene, FULL_THROTTLE, 0.0, horizon_s, Arc::default()))
+        block_on(Self::find(scene, FULL_THROTTLE, horizon_s, Arc::default()))
     }
 
     /// Like [`Judge::new`], under a throttle for the bodies that have one.
@@ -75,32 +76,43 @@ impl Judge {
     #[track_caller]
     pub fn at_throttle(scene: &Scene, throttle: f64) -> Self {
         assert!((-1.0..=1.0).contains(&throttle), "the throttle is {throttle}; give -1 to 1");
-        block_on(Self::find(scene, throttle, 0.0, horizon_s(scene), Arc::default()))
+        block_on(Self::find(scene, throttle, horizon_s(scene), Arc::default()))
     }
 
-    /// Like [`Self::over`], for a scene that begins at time `starts_at_s` of a run, with `meter` as the counter of the
-    /// judge's work.
+    /// Like [`Self::over`], with `meter` as the counter of the judge's work.
     pub(super) async fn find(
         scene: &Scene,
         throttle: f64,
-        starts_at_s: f64,
         horizon_s: f64,
         meter: Arc<Meter>,
     ) -> Self {
         let mut truths = Vec::with_capacity(scene.bodies.len());
         for (index, body) in scene.bodies.iter().enumerate() {
             let (inputs, meter) = (inputs_of(scene, index), meter.clone());
-            truths.push(
-                BodyTruth::find(body, &inputs, throttle, starts_at_s, horizon_s, meter).await,
-            );
+            truths.push(BodyTruth::find(body, &inputs, throttle, horizon_s, meter).await);
         }
         let of_swings = truths.iter().map(|_| Once::default()).collect();
-        Self { horizon_s, throttle, max_work: MAX_WORK, truths, of_swings, meter }
+        Self {
+            horizon_s,
+            throttle,
+            max_work: MAX_WORK,
+            begins_later: false,
+            truths,
+            of_swings,
+            meter,
+        }
     }
 
     /// Limits the work of each run to less than [`MAX_WORK`]. Results beyond the limit are unknown.
     pub(super) fn within(mut self, max_work: u64) -> Self {
         self.max_work = max_work;
+        self
+    }
+
+    /// Judges a run from some later time on, if `begins_later` is true. The judge's clock begins at 0 all the same, so
+    /// that it does not judge a body that a clock drives.
+    pub(super) fn beginning_later(mut self, begins_later: bool) -> Self {
+        self.begins_later = begins_later;
         self
     }
 
@@ -165,6 +177,10 @@ impl Judge {
 
     async fn verdict_on_body(&self, body: usize, max_work: u64, pace: Pace) -> Verdict {
         let truth = &self.truths[body];
+        if self.begins_later && truth.is_driven() {
+            let finding = Finding::NotJudged(NotJudged::Driven);
+            return self.verdict_with(body, finding, LongTerm::default());
+        }
         if truth.is_too_dear() {
             // A tick of a large body may take seconds, so its run ends with the horizon. Later growth would matter to
             // nobody.

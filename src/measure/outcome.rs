@@ -90,7 +90,7 @@ impl Outcome {
                  without a swing, within 5 % of the range"
             }
             Outcome::NotJudged => {
-                "it takes too much work, the scene is shorter than a tick, or no flight of a ball ends before an input"
+                "it takes too much work, the scene is shorter than a tick, no flight of a ball ends before an input, or a clock drives it"
             }
             Outcome::NoTruth => "the true motion is not known precisely enough",
             Outcome::Bounded => "it neither grows nor dies away, and looks wrong",

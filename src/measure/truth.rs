@@ -49,8 +49,6 @@ const PRODUCTS_PER_EVALUATION: u64 = 4;
 pub(super) struct BodyTruth {
     pub(super) body: SceneBody,
     pub(super) throttle: f64,
-    /// The time of the run at which the motion begins, in seconds, if a clock drives it.
-    pub(super) clock_s: Option<f64>,
     /// The script's actions on the body at the start, in order. The motion begins after them.
     at_start: Vec<Action>,
     /// The script's later actions on the body within the horizon, in order.
@@ -85,13 +83,12 @@ pub(super) struct BodyTruth {
 }
 
 impl BodyTruth {
-    /// Computes the truth of a motion that begins at time `starts_at_s` of a run. The amplitude of a component is half the largest true range among components of the same
+    /// Computes the truth. The amplitude of a component is half the largest true range among components of the same
     /// unit. For constant components, it is the largest value.
     pub(super) async fn find(
         body: &SceneBody,
         inputs: &[Scripted],
         throttle: f64,
-        starts_at_s: f64,
         horizon_s: f64,
         meter: Arc<Meter>,
     ) -> Self {
@@ -100,7 +97,6 @@ impl BodyTruth {
         let mut truth = Self {
             body: body.clone(),
             throttle,
-            clock_s: None,
             at_start: at_start.into_iter().map(|input| input.action.clone()).collect(),
             inputs: later.cloned().collect(),
             horizon_s,
@@ -117,7 +113,6 @@ impl BodyTruth {
             series_by_rate: TruthSeriesByRate::default(),
             meter,
         };
-        truth.clock_s = (starts_at_s > 0.0 && truth.is_driven()).then_some(starts_at_s);
         truth.survey().await;
         truth
     }
@@ -127,9 +122,6 @@ impl BodyTruth {
         let mut stepper = (self.body.kind.build)(&self.body.values, solver);
         stepper.input(0.0, Input::Throttle(self.throttle));
         self.at_start.iter().for_each(|input| input.apply_to(&mut *stepper, 0.0));
-        if let Some(clock_s) = self.clock_s {
-            stepper.set_clock(clock_s);
-        }
         stepper
     }
 
@@ -170,7 +162,7 @@ impl BodyTruth {
     }
 
     /// Whether the motion depends on the time of the run: under a law that reads it, or after a target that moves.
-    fn is_driven(&self) -> bool {
+    pub(super) fn is_driven(&self) -> bool {
         let reads_time =
             matches!(&self.body.kind.origin, Origin::Law(equations) if equations.reads_time());
         let pursuit = self.start(Solver::Truth).pursuit(0.0);

@@ -68,6 +68,8 @@ pub enum NotJudged {
     ShorterThanATick,
     /// No flight of a ball ends before the first input.
     NoFlight,
+    /// The motion depends on the time of the run, and the verdict would begin in the middle of it.
+    Driven,
 }
 
 /// The findings of a run on a body.

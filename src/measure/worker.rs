@@ -315,14 +315,13 @@ impl AnalysisWorker {
             &self.request;
         let (tick_hz, meter) = (*tick_hz, Arc::<Meter>::default());
         if let Some(&(spec, lane)) = entries.get(self.judged) {
-            let starts_at_s = by_hand.starts_at_s();
+            let begins_later = by_hand.starts_at_s() > 0.0;
             let Some(judge) = self.judge.clone() else {
                 let scene = by_hand.applied_to(scene);
                 return Some(Sliced::new(meter.clone(), async move {
                     let horizon_s = horizon_s(&scene);
-                    AnswerPart::Judge(
-                        Judge::find(&scene, 1.0, starts_at_s, horizon_s, meter).await.into(),
-                    )
+                    let judge = Judge::find(&scene, 1.0, horizon_s, meter).await;
+                    AnswerPart::Judge(judge.beginning_later(begins_later).into())
                 }));
             };
             let known = self.of_lanes.iter().find(|(id, _)| Some(*id) == lane);
@@ -331,9 +330,8 @@ impl AnalysisWorker {
                 let scene = by_hand.applied_to_lane(scene, lane);
                 let meter = judge.meter().clone();
                 return Some(Sliced::new(meter.clone(), async move {
-                    let horizon_s = judge.horizon_s();
-                    let judge = Judge::find(&scene, 1.0, starts_at_s, horizon_s, meter).await;
-                    AnswerPart::JudgeOfLane(lane, judge.into())
+                    let judge = Judge::find(&scene, 1.0, judge.horizon_s(), meter).await;
+                    AnswerPart::JudgeOfLane(lane, judge.beginning_later(begins_later).into())
                 }));
             }
             // Work that earlier verdicts did not use is left for later ones.

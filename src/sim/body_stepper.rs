@@ -25,16 +25,7 @@ use super::system::{
 pub fn stepper<B: Body>(body: B, solver: Solver) -> Box<dyn Stepper> {
     let state = body.start();
     let (body, bounces) = (Counted::new(body), Bounces::default());
-    let placed = BodyAtState {
-        body,
-        state,
-        solver,
-        clock_s: 0.0,
-        lost_before: 0.0,
-        lost_time: 0.0,
-        bounces,
-    };
-    placed.begin(0.0)
+    BodyAtState { body, state, solver, lost_before: 0.0, lost_time: 0.0, bounces }.begin(0.0)
 }
 
 impl<B: Body> BodyAtState<B> {
@@ -108,8 +99,8 @@ impl<B: Body, D: Propagator<B> + Clone> Stepper for BodyStepper<B, D> {
     fn advance(&mut self, t: f64, h: f64, substeps: u32) -> Stepped {
         StepFailure::check_step(t, h, substeps)?;
         let Self { placed, propagator } = self;
-        let BodyAtState { body, state, clock_s, lost_before, lost_time, bounces, .. } = placed;
-        let stepped = propagator.step(body, *clock_s + t, h, substeps, state);
+        let BodyAtState { body, state, lost_before, lost_time, bounces, .. } = placed;
+        let stepped = propagator.step(body, t, h, substeps, state);
         let lost = propagator.lost_time();
         if lost > 0.0 {
             *lost_time = *lost_before + lost;
@@ -121,16 +112,10 @@ impl<B: Body, D: Propagator<B> + Clone> Stepper for BodyStepper<B, D> {
     }
 
     fn change(&mut self, t: f64, change: Change<'_>) -> bool {
-        let Self { placed: BodyAtState { body, state, clock_s, bounces, .. }, propagator } = self;
-        let is_changed = propagator.jump(*clock_s + t, change, &mut body.system, state);
+        let Self { placed: BodyAtState { body, state, bounces, .. }, propagator } = self;
+        let is_changed = propagator.jump(t, change, &mut body.system, state);
         *bounces = propagator.bounces().unwrap_or(*bounces);
         is_changed
-    }
-
-    fn set_clock(&mut self, clock_s: f64) {
-        self.placed.clock_s = clock_s;
-        let [q, v] = [self.placed.q(), self.placed.v()].map(<[f64]>::to_vec);
-        self.change(0.0, Change::State { q: &q, v: &v });
     }
 
     fn placed(&self) -> &(dyn PlacedBody + 'static) {
@@ -139,9 +124,7 @@ impl<B: Body, D: Propagator<B> + Clone> Stepper for BodyStepper<B, D> {
 
     fn recorded(&self, method: &Method, t: f64, h: f64, substeps: u32) -> Option<RecordedTick> {
         self.placed.solver.method().filter(|own| *own == method)?;
-        self.placed.recorded(&|of, y| {
-            self.propagator.try_step(of, [self.placed.clock_s + t, h], substeps, y)
-        })
+        self.placed.recorded(&|of, y| self.propagator.try_step(of, [t, h], substeps, y))
     }
 
     fn is_closed_form(&self) -> bool {
@@ -176,8 +159,6 @@ struct BodyAtState<B: Body> {
     body: Counted<B>,
     state: StateOf<B>,
     solver: Solver,
-    /// The time (s) of the body's forces at time 0.
-    clock_s: f64,
     /// The time in seconds that methods left out of their steps, first only before the present solver, then in all.
     lost_before: f64,
     lost_time: f64,
@@ -205,7 +186,6 @@ impl<B: Body> PlacedBody for BodyAtState<B> {
         at.q.components_mut().copy_from_slice(q);
         at.v.components_mut().copy_from_slice(v);
         let mut acceleration = self.state.q.clone();
-        let t = self.clock_s + t;
         self.body.system.acceleration(t, &at.q, &at.v, &mut acceleration);
         a.copy_from_slice(acceleration.components());
     }
@@ -243,17 +223,11 @@ impl<B: Body> PlacedBody for BodyAtState<B> {
     }
 
     fn pursuit(&self, t: f64) -> Option<Pursuit<f64>> {
-        let Pursuit { target, rate, order, is_still } =
-            Pursuit::of(&self.body.system, self.clock_s + t)?;
+        let Pursuit { target, rate, order, is_still } = Pursuit::of(&self.body.system, t)?;
         Some(Pursuit { target: target.components()[0], rate, order, is_still })
     }
     fn engine_settings(&self, t: f64) -> EngineSettings {
-        EngineSettings::of(
-            &self.body.system,
-            self.clock_s + t,
-            &self.state,
-            &mut self.state.q.clone(),
-        )
+        EngineSettings::of(&self.body.system, t, &self.state, &mut self.state.q.clone())
     }
 
     fn place(&self) -> DVec2 {
@@ -264,7 +238,6 @@ impl<B: Body> PlacedBody for BodyAtState<B> {
     }
 
     fn with_solver(&self, solver: Solver, t: f64) -> Box<dyn Stepper> {
-        let t = self.clock_s + t;
         Self { solver, lost_before: self.lost_time, ..self.clone() }.begin(t)
     }
 }

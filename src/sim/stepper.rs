@@ -77,10 +77,6 @@ pub trait Stepper: Send {
     /// Changes the body or its state at time `t` (s), and restarts the solver there. Returns whether anything changed.
     fn change(&mut self, t: f64, change: Change<'_>) -> bool;
 
-    /// Sets the time (s) of the body's forces at the caller's time 0, and restarts the solver there, from the present
-    /// state.
-    fn set_clock(&mut self, clock_s: f64);
-
     /// Returns the body at its state.
     fn placed(&self) -> &(dyn PlacedBody + 'static);
 

@@ -271,7 +271,6 @@ impl Judge {
             &truth.body,
             &inputs,
             self.throttle,
-            truth.clock_s.unwrap_or(0.0),
             first_swings_s,
             self.meter.clone(),
         );

@@ -15,7 +15,7 @@ fn swings(head: &str, id: &str, tick_hz: u32, substeps: u32) -> Swings {
     let scene = Scene::parse("t", &text).unwrap();
     let spec = LaneSpec { substeps, ..LaneSpec::plain(method(id).unwrap()) };
     let body = &scene.bodies[0];
-    let truth = block_on(BodyTruth::find(body, &[], 1.0, 0.0, scene.seconds, Arc::default()));
+    let truth = block_on(BodyTruth::find(body, &[], 1.0, scene.seconds, Arc::default()));
     let run =
         block_on(follow(&truth, Pace { spec, tick_hz: tick_hz.into() }, Until::Swings, MAX_WORK));
     run.swings.expect("it swings")

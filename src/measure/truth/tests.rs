@@ -5,7 +5,7 @@ use crate::measure::slices::block_on;
 use crate::scene::Scene;
 
 fn of_first_body(scene: &Scene, seconds: f64) -> BodyTruth {
-    block_on(BodyTruth::find(&scene.bodies[0], &[], 1.0, 0.0, seconds, Arc::default()))
+    block_on(BodyTruth::find(&scene.bodies[0], &[], 1.0, seconds, Arc::default()))
 }
 
 fn truth(text: &str, seconds: f64) -> BodyTruth {
@@ -128,41 +128,5 @@ fn half_turns_are_compared_one_by_one_and_missing_ones_count_as_rest() {
     let narrow_first = [vec![0.9], decaying(0.0, 9)].concat();
     for (first, is_as_wide) in [(0, false), (1, true)] {
         assert_eq!(swing(decaying(0.0, 10)).is_as_wide(&narrow_first, first), is_as_wide);
-    }
-}
-
-#[test]
-fn a_truth_from_the_middle_of_a_driven_run_goes_on_by_the_clock_of_the_run() {
-    let target = "title = 't'\ntick_hz = 60\nseconds = 6\n[[follow]]\nrate_per_s = 2.0\nsine_m = 1.0\nsine_hz = 0.3\n";
-    let scenes = ["duffing", "quarter-car"].map(Scene::built_in).map(Option::unwrap);
-    for scene in scenes.into_iter().chain([Scene::parse("target", target).unwrap()]) {
-        let name = &scene.title;
-        let whole = of_first_body(&scene, 6.0);
-        let mut there = whole.start(Solver::Truth);
-        (0..120).for_each(|tick| there.advance(f64::from(tick) / 60.0, 1.0 / 60.0, 1).unwrap());
-        let [q, v] = [there.q(), there.v()].map(|x| x.iter().copied().collect());
-        let place = Scripted { at_s: 0.0, action: Action::Place { body: 0, q, v } };
-        let find = |starts_at_s| {
-            let meter = Arc::default();
-            block_on(BodyTruth::find(
-                &scene.bodies[0],
-                &[place.clone()],
-                1.0,
-                starts_at_s,
-                4.0,
-                meter,
-            ))
-        };
-        let off = |truth: &BodyTruth| {
-            let [all, rest] = [&whole, truth].map(|truth| block_on(truth.series(60.into())));
-            let differences = (1..=240).map(|tick| {
-                let [all, rest] = [all.at(120 + tick), rest.at(tick)].map(|x| x.unwrap()[0]);
-                (all - rest).abs() / whole.amplitudes[0]
-            });
-            differences.fold(0.0, f64::max)
-        };
-        let [by_the_clock, anew] = [2.0, 0.0].map(|starts_at_s| off(&find(starts_at_s)));
-        assert!(by_the_clock < 1e-7, "{name}: {by_the_clock}");
-        assert!(anew > 0.01, "{name} is not driven: {anew}");
     }
 }

@@ -72,6 +72,7 @@ impl fmt::Display for NotJudged {
             NotJudged::TooMuchWork => "too much work",
             NotJudged::ShorterThanATick => "the scene is shorter than a tick",
             NotJudged::NoFlight => "no flight before the first input",
+            NotJudged::Driven => "driven by the clock: only from the start",
         })
     }
 }
