@@ -115,7 +115,10 @@ fn no_cloud(why: NoCloud) -> Error {
     Error::mistake(match why {
         NoCloud::TooMany { .. } => format!("{why} --points"),
         NoCloud::OverThePole { .. } => why.to_string(),
-        why => format!("{why}; give another scene, such as pendulum, spring, duffing or coin"),
+        why => format!(
+            "{why}; give a scene with a body of one coordinate, such as pendulum, spring or duffing, or with one that turns \
+             in space, such as coin"
+        ),
     })
 }
 

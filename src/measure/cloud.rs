@@ -42,9 +42,7 @@ const USUAL_TURN: f64 = 0.05;
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum NoCloud {
     /// The body has no phase plane, or several ones.
-    #[error(
-        "a cloud needs a body of one coordinate, or one that turns in space, and {body} has {coordinates}"
-    )]
+    #[error("a cloud needs a body of one coordinate, and {body} has {coordinates}")]
     SeveralCoordinates {
         /// Name of the body.
         body: String,

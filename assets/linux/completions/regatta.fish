@@ -1033,7 +1033,7 @@ none\t''
 engine\t''"
 complete -c regatta -n "__fish_regatta_using_subcommand cloud" -l tick-hz -d 'Ticks per second [default: the scene\'s]' -r
 complete -c regatta -n "__fish_regatta_using_subcommand cloud" -l step -d 'The length of a tick, in place of --tick-hz' -r
-complete -c regatta -n "__fish_regatta_using_subcommand cloud" -l points -d 'Starts, 1 to 1000000000' -r
+complete -c regatta -n "__fish_regatta_using_subcommand cloud" -l points -d 'Starts, 1 to 1000000000 [default: 100000]' -r
 complete -c regatta -n "__fish_regatta_using_subcommand cloud" -l shape -d 'The shape of the starts: cat, disc or ring' -r -f -a "cat\t''
 disc\t''
 ring\t''"

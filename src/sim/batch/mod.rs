@@ -171,17 +171,17 @@ impl Batch {
         set: InstructionSet,
     ) -> NewBatch {
         assert!(set.is_available(), "this processor does not support {set:?}");
-        let count = starts.len();
-        let padded = count.next_multiple_of(PADDING);
-        let blocks = solver.method().and_then(|method| in_blocks(copies, method, set, padded));
-        let advance = blocks.or_else(|| one_by_one(copies, solver, count)).expect("a method");
-        Self::of(starts, advance)
+        Self::of(starts, |count, padded| {
+            let blocks = solver.method().and_then(|method| in_blocks(copies, method, set, padded));
+            blocks.or_else(|| one_by_one(copies, solver, count)).expect("a method")
+        })
     }
 
-    /// Makes a batch of copies with these starts, which `advance` steps.
+    /// Makes a batch of copies with these starts. `advance` makes what steps them, for the number of copies and that in
+    /// whole blocks, once there is room for the states.
     pub(in crate::sim) fn of(
         starts: impl ExactSizeIterator<Item = State<f64>>,
-        advance: Box<dyn Advance>,
+        advance: impl FnOnce(usize, usize) -> Box<dyn Advance>,
     ) -> NewBatch {
         let count = starts.len();
         let padded = count.next_multiple_of(PADDING);
@@ -195,7 +195,7 @@ impl Batch {
         for numbers in [&mut q, &mut v] {
             numbers.resize(padded, numbers.last().copied().unwrap_or(0.0));
         }
-        Ok(Self { q, v, count, advance })
+        Ok(Self { q, v, count, advance: advance(count, padded) })
     }
 
     /// Checks that memory suffices for this number of copies under each of these solvers at once. Allocates nothing.

@@ -48,8 +48,8 @@ pub fn identify_spin(
         Some((Fitted { candidate, residual }, spins))
     };
     let mut fits: Vec<(Fitted, Vec<DVec3>)> = candidates().filter_map(fit).collect();
-    // Steps that are the same differ by rounding. A rule for a body that spins comes before a general method of the same
-    // step, and before the engines that use it.
+    // Steps that are the same differ by rounding. A rule for a body that spins comes before a general method of the
+    // same step, and before the engines that use it.
     let rank = |fitted: &Fitted| {
         let Candidate { method, substeps, .. } = fitted.candidate;
         (method.is_engine(), !is_rule(method), substeps)

@@ -26,8 +26,8 @@ impl Tumble {
         if 2.0 * level < slopes[0] - slopes[1] { least } else { greatest }
     }
 
-    /// Returns the direction of L from the body, as its angle about an axis in radians and the part of L along it, so
-    /// that equal areas are equal parts of the sphere: the coordinates of Serret and Andoyer. `v` are the velocities.
+    /// Returns the direction of L from the body at these velocities, in the coordinates of Serret and Andoyer: its
+    /// angle about an axis in radians, and the part of L along that axis. Equal areas are equal parts of the sphere.
     pub fn direction(&self, v: &[f64]) -> [f64; 2] {
         let axis = self.polar_axis();
         let momentum = self.momentum_in_body(v);
@@ -66,8 +66,8 @@ pub(super) fn batch(
             part.map(|_| Copy { stepper: stepper(body.clone(), solver), at: [f64::NAN; 2] });
         Box::new(Copies { body: body.clone(), copies: copies.collect() }) as _
     };
-    let advance = Chunks::new(GRAIN, starts.len(), part);
-    Some(Batch::of(starts.into_iter(), Box::new(advance)))
+    let advance = |count, _| Box::new(Chunks::new(GRAIN, count, part)) as _;
+    Some(Batch::of(starts.into_iter(), advance))
 }
 
 /// A copy, and the direction to which it was stepped.
