@@ -22,7 +22,8 @@ impl Tumble {
         if slopes == [0.0; 2] {
             return place.abs().min_position();
         }
-        let level = slopes[0] * place[least].powi(2) - slopes[1] * place[greatest].powi(2);
+        let [x, z] = [least, greatest].map(|axis| place[axis] * place[axis]);
+        let level = slopes[0] * x - slopes[1] * z;
         if 2.0 * level < slopes[0] - slopes[1] { least } else { greatest }
     }
 
