@@ -22,7 +22,7 @@ type Of = ParameterOf<Ball>;
 
 const CEILING: &str = "ceiling_m";
 
-const PARAMETERS: [Of; 8] = [
+const PARAMETERS: [Of; 7] = [
     Of::number("height_m", Range::NON_NEGATIVE, |ball| &mut ball.height)
         .at_start()
         .named("height at start")
@@ -50,12 +50,9 @@ const PARAMETERS: [Of; 8] = [
         .or(4.905)
         .symbol("K")
         .about("the change of velocity by one kick"),
-    Of::number("penalty_hz", Range::POSITIVE, |ball| &mut ball.penalty_hz)
-        .or(SOFT_HZ)
-        .about("the frequency of the spring that the rule `penalty` makes of a wall"),
 ];
 
-/// Frequency of a soft wall in hertz, unless the body has another: k = 900 per second squared.
+/// Frequency of a soft wall in hertz: k = 900 per second squared.
 const SOFT_HZ: f64 = 4.77;
 
 /// The largest number of flights that a truth follows one by one. After more flights the state is not known: under drag
@@ -98,8 +95,6 @@ pub struct Ball {
     pub ceiling: f64,
     /// K, the change of velocity by one kick, in metres per second.
     pub kick: f64,
-    /// Frequency in hertz of the spring that a soft wall is; 0 is 4.77.
-    pub penalty_hz: f64,
     /// Whether the walls are springs, as under the rule `penalty`.
     pub is_soft: bool,
     /// A memory that saves work and changes nothing.
@@ -352,8 +347,7 @@ impl System for Ball {
         if self.is_soft {
             let log = libm::log(self.restitution.max(1e-300));
             let turn = std::f64::consts::PI;
-            let hz = if self.penalty_hz > 0.0 { self.penalty_hz } else { SOFT_HZ };
-            let soft = 2.0 * turn * hz;
+            let soft = 2.0 * turn * SOFT_HZ;
             let damping = -2.0 * soft * log / (turn * turn + log * log).sqrt();
             let push = |depth: f64, v: f64| (soft * soft * depth - damping * v).max(0.0);
             if *y < 0.0 {
