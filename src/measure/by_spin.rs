@@ -1,11 +1,12 @@
 //! Follows a body that turns in space beside its truth.
 
 use std::ops::ControlFlow;
+use std::sync::Arc;
 
 use super::criterion::VISIBLE;
 use super::pace::Pace;
 use super::spin_finding::SpinFinding;
-use super::truth::{BodyTruth, FollowedBody, LONG_RUN, ticks};
+use super::truth::{BodyTruth, FollowedBody, FollowedRun, LONG_RUN, TruthSeries, ticks};
 use super::verdict::RunFailure;
 use crate::run::race::StopReason;
 use crate::sim::bodies::Tumble;
@@ -66,8 +67,35 @@ impl Axis {
     }
 }
 
-/// Whether a body gains no energy of its own in the long run, and does not tip over.
+/// A run before its first tick, beside its truth.
+struct Begun {
+    followed: FollowedRun,
+    start: Tumble,
+    axis: Axis,
+    series: Arc<TruthSeries>,
+}
+
+impl Begun {
+    /// Begins a run of the body of `truth` at this pace; `None` if the body does not turn in space.
+    async fn of(truth: &BodyTruth, pace: Pace, max_work: u64) -> Option<Self> {
+        let Pace { spec, tick_hz } = pace;
+        let series = truth.series(tick_hz).await;
+        let max_work = max_work.min(truth.meter.budget_left());
+        let followed = truth.follow(spec.solver(), spec.substeps, tick_hz).with_max_work(max_work);
+        let stepper = &followed.body.stepper;
+        let start = stepper.body().downcast_ref::<Tumble>()?.clone();
+        let n = stepper.q().len();
+        let within = 1..=ticks(truth.horizon_s, tick_hz);
+        let true_v = within.filter_map(|tick| Some(&series.at(tick)?[n..]));
+        let axis = Axis::of(&start, stepper.v(), true_v);
+        Some(Self { followed, start, axis, series })
+    }
+}
+
+/// The long run of a body.
+#[derive(Default)]
 pub(super) struct LongSpin {
+    /// Whether the body gains no energy of its own and does not tip over.
     pub(super) is_bounded: bool,
     pub(super) is_too_much: bool,
     pub(super) evaluations: u64,
@@ -75,59 +103,32 @@ pub(super) struct LongSpin {
 }
 
 /// Runs the body of `truth` at this pace over the long run, with its inputs.
-pub(super) async fn follow_long_spin(
-    truth: &BodyTruth,
-    Pace { spec, tick_hz }: Pace,
-    max_work: u64,
-) -> LongSpin {
-    let series = truth.series(tick_hz).await;
-    let max_work = max_work.min(truth.meter.budget_left());
-    let mut followed = truth.follow(spec.solver(), spec.substeps, tick_hz).with_max_work(max_work);
-    let mut long = LongSpin {
-        is_bounded: false,
-        is_too_much: series.is_too_much,
-        evaluations: 0,
-        seconds: 0.0,
-    };
-    let Some(start) = followed.body.stepper.body().downcast_ref::<Tumble>().cloned() else {
-        return long;
-    };
-    let n = followed.body.stepper.q().len();
-    let within = 1..=ticks(truth.horizon_s, tick_hz);
-    let states = within.filter_map(|tick| Some(&series.at(tick)?[n..]));
-    let axis = Axis::of(&start, followed.body.stepper.v(), states);
+pub(super) async fn follow_long_spin(truth: &BodyTruth, pace: Pace, max_work: u64) -> LongSpin {
+    let mut long = LongSpin::default();
+    let Some(begun) = Begun::of(truth, pace, max_work).await else { return long };
+    let Begun { mut followed, start, axis, series } = begun;
     let see = |body: &FollowedBody, tick: u64| {
-        (long.seconds, long.evaluations) = (tick_hz.seconds(tick), body.stepper.evaluations());
+        (long.seconds, long.evaluations) = (pace.tick_hz.seconds(tick), body.stepper.evaluations());
         let gains = body.energy() > (1.0 + VISIBLE) * body.base_j;
-        match gains || axis.lean(&start, body.stepper.v()) > axis.tipped {
-            true => ControlFlow::Break(()),
-            false => ControlFlow::Continue(()),
+        if gains || axis.lean(&start, body.stepper.v()) > axis.tipped {
+            return ControlFlow::Break(());
         }
+        ControlFlow::Continue(())
     };
-    let end = ticks(LONG_RUN * truth.horizon_s, tick_hz);
+    let end = ticks(LONG_RUN * truth.horizon_s, pace.tick_hz);
     let stop = truth.run_until(&mut followed, end, see).await;
     long.is_bounded = stop == StopReason::End;
-    long.is_too_much |= stop == StopReason::TooMuchWork;
+    long.is_too_much = series.is_too_much || stop == StopReason::TooMuchWork;
     long
 }
 
 /// Runs the body of `truth` at this pace over the horizon, with its inputs.
-pub(super) async fn follow_spin(
-    truth: &BodyTruth,
-    Pace { spec, tick_hz }: Pace,
-    max_work: u64,
-) -> SpinRun {
+pub(super) async fn follow_spin(truth: &BodyTruth, pace: Pace, max_work: u64) -> SpinRun {
+    let mut run = SpinRun::default();
+    let Some(begun) = Begun::of(truth, pace, max_work).await else { return run };
+    let Begun { mut followed, axis, series, .. } = begun;
+    let (tick_hz, n) = (pace.tick_hz, followed.body.stepper.q().len());
     let end = ticks(truth.horizon_s, tick_hz);
-    let series = truth.series(tick_hz).await;
-    let max_work = max_work.min(truth.meter.budget_left());
-    let mut followed = truth.follow(spec.solver(), spec.substeps, tick_hz).with_max_work(max_work);
-    let mut run = SpinRun { is_too_much: series.is_too_much, ..SpinRun::default() };
-    let Some(start) = followed.body.stepper.body().downcast_ref::<Tumble>().cloned() else {
-        return run;
-    };
-    let n = followed.body.stepper.q().len();
-    let states = (1..=end).filter_map(|tick| Some(&series.at(tick)?[n..]));
-    let axis = Axis::of(&start, followed.body.stepper.v(), states);
     let (mut own, mut exact) = (Flips::default(), Flips::default());
     let (mut fastest, mut omega) = (0.0_f64, 0.0_f64);
     let found = &mut run.finding;
@@ -178,7 +179,7 @@ pub(super) async fn follow_spin(
         // A body that flips in truth does not tip over.
         found.tips_at_s = None;
     }
-    run.is_too_much |= stop == StopReason::TooMuchWork;
+    run.is_too_much = series.is_too_much || stop == StopReason::TooMuchWork;
     run.failure = RunFailure::of(stop, followed.t());
     run
 }

@@ -80,7 +80,7 @@ impl LaneSpec {
         Self { method, substeps, tolerance: None, joint: None, impact }
     }
 
-    /// Returns the lane with this rule for impacts, unless the method is an engine with a rule of its own.
+    /// Returns the lane with this rule for impacts, unless it does not [fit](Impact::fits) the method.
     #[must_use]
     pub fn with_impact(self, impact: &'static Impact) -> Self {
         if impact.fits(self.method) { Self { impact, ..self } } else { self }

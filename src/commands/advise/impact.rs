@@ -22,7 +22,9 @@ impl ImpactAdvice {
     /// Returns the recommended method with the default rule, or else velocity Verlet with it; `None` if no body of the
     /// scene meets a wall, or neither meets a criterion.
     pub(super) fn of(scene: &Scene, adviser: &Adviser, rows: &[Row]) -> Option<Self> {
-        scene.bodies.iter().find(|body| body.kind.has_walls)?;
+        if !scene.bodies.iter().any(|body| body.kind.has_walls) {
+            return None;
+        }
         let exact: &'static Impact = Default::default();
         let take = criterion_to_take(&advised(rows));
         let row = take.and_then(|criterion| Some(recommended_row(rows, criterion)?.0));
@@ -77,10 +79,11 @@ impl ImpactAdvice {
 /// Returns the exact bounces of the scene's ball as code; `None` if its body is no ball that falls without drag.
 pub(super) fn exact_code(scene: &Scene, language: Language) -> Option<String> {
     let [body] = &scene.bodies[..] else { return None };
-    body.kind.has_walls.then_some(())?;
     let of = |key: &str| Some(body.values[body.kind.parameter(key)?.0]);
     let [e, g] = [of("restitution")?, of("gravity_m_per_s2")?];
     let is_free = of("drag_per_s")? == 0.0 && of("ceiling_m")? == 0.0;
-    let code = impact_code_for(Default::default(), language, [e, g]);
-    code.ok().filter(|_| is_free)
+    if !is_free {
+        return None;
+    }
+    impact_code_for(Default::default(), language, [e, g]).ok()
 }

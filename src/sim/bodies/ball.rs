@@ -52,7 +52,7 @@ const PARAMETERS: [Of; 7] = [
         .about("the change of velocity by one kick"),
 ];
 
-/// Frequency of a soft wall in hertz: k = 900 per second squared.
+/// Frequency of a soft wall in hertz: k is 898 per second squared.
 const SOFT_HZ: f64 = 4.77;
 
 /// The largest number of flights that a truth follows one by one. After more flights the state is not known: under drag

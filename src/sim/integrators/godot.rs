@@ -21,8 +21,8 @@ pub(super) const CARD: Method = Method {
         substeps: Substeps::Ticks(
             "Engine.physics_ticks_per_second = {hz} # step {n} times with dt / {n}: Godot has no substeps, and whole ticks",
         ),
-        // This is the map of Godot's bodies in space.
         bounce: None,
+        // This is the map of Godot's bodies in space.
         free_spin: Some(FreeSpin::of(SpinMap::Constant)),
         version: "4.x",
         logged: None,

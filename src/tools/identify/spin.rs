@@ -34,7 +34,7 @@ pub fn identify_spin(
     let pairs: Vec<_> = rows.windows(2).filter(next).map(|pair| [pair[0].1, pair[1].1]).collect();
     let fastest = pairs.iter().flatten().map(|spin| spin.length()).fold(0.0, f64::max);
     // A step rounds the terms of its sum, which exceed the sum where it explodes.
-    let bend = fastest * moments.max_element() / moments.min_element() / tick_hz;
+    let bend = fastest / moments.min_element() / tick_hz;
     let scale = fastest * (1.0 + bend);
     let largest = |differences: &mut dyn Iterator<Item = DVec3>| {
         differences.map(|it| it.abs().max_element() / scale).fold(0.0, f64::max)
