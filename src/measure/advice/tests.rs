@@ -131,11 +131,11 @@ const MILLIONS: [(&str, f64); 37] = [
     ("alike", 12.5),
     ("engines", 135.0),
     ("stiff-in-engines", 71.0),
-    ("coin", 191.0),
-    ("t-handle", 529.0),
-    ("phone", 343.0),
-    ("long-box", 144.0),
-    ("gyro", 281.0),
+    ("coin", 1130.0),
+    ("t-handle", 3367.0),
+    ("phone", 1760.0),
+    ("long-box", 894.0),
+    ("gyro", 1846.0),
 ];
 
 /// Limit in an unoptimised build, in which all scenes would take half an hour.
