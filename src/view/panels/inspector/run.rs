@@ -34,7 +34,11 @@ fn show_lane(ui: &mut Ui, studio: &Studio, entrant: &Entrant, commands: &mut Vec
         RichText::new(number.to_string()).color(palette(ui).style(studio.entries(), &spec).0);
     ui.add_sized([LANE, LINE], egui::Label::new(digits.strong()));
     let gap = ui.spacing().item_spacing.x;
-    let width = ui.available_width() - SUBSTEPS - TOLERANCE - RESTORE - 4.0 * gap;
+    // Names have the room of tolerances where no lane has one: with its rule for impacts a name is long.
+    let has_tolerances =
+        studio.race().entrants().iter().any(|it| it.spec.method.tolerance.is_some());
+    let tolerance_and_gap = if has_tolerances { TOLERANCE + gap } else { 0.0 };
+    let width = ui.available_width() - SUBSTEPS - tolerance_and_gap - RESTORE - 3.0 * gap;
     show_methods(ui, studio, entrant, width.max(60.0), commands);
     let substeps = NumberField {
         id: ids[0],
@@ -66,7 +70,10 @@ fn show_lane(ui: &mut Ui, studio: &Studio, entrant: &Entrant, commands: &mut Vec
             response.on_hover_text("tolerance: the largest error of a substep");
             commands.extend(entered.map(|tolerance| act(Action::Tolerance { lane, tolerance })));
         }
-        None => drop(ui.allocate_exact_size(vec2(TOLERANCE, LINE), egui::Sense::hover())),
+        None if has_tolerances => {
+            ui.allocate_exact_size(vec2(TOLERANCE, LINE), egui::Sense::hover());
+        }
+        None => {}
     }
     let opened = opened(studio, entrant);
     let about = format!("back to {}", opened.method.name);
