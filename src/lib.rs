@@ -151,44 +151,32 @@ mod atomic_file;
 #[cfg(feature = "cli")]
 #[allow(clippy::disallowed_methods, clippy::disallowed_types, reason = "of the drivers")]
 pub mod commands;
-#[cfg(feature = "lab")]
-pub mod look;
-#[cfg(feature = "lab")]
-pub mod loops;
 pub mod manual;
-#[cfg(feature = "lab")]
-pub mod measure;
-#[cfg(any(feature = "cli", feature = "view"))]
-mod picture_note;
 pub mod prelude;
 #[cfg(any(feature = "cli", feature = "window"))]
 #[allow(clippy::disallowed_methods, clippy::disallowed_types, reason = "of the drivers")]
 mod regular_file;
-#[cfg(feature = "lab")]
-pub mod run;
-#[cfg(feature = "lab")]
-pub mod scene;
-pub mod sim;
-#[cfg(feature = "lab")]
-pub mod stage;
 #[cfg(any(feature = "cli", feature = "window"))]
 #[allow(clippy::disallowed_methods, clippy::disallowed_types, reason = "of the drivers")]
 mod stopwatch;
-#[cfg(feature = "lab")]
-pub mod studio;
-#[cfg(feature = "lab")]
-pub mod table;
-#[cfg(feature = "lab")]
-pub mod tools;
-#[cfg(feature = "view")]
-#[allow(clippy::iter_over_hash_type, reason = "textures are uploaded in any order")]
-pub mod view;
 #[cfg(feature = "window")]
 #[allow(clippy::disallowed_methods, clippy::disallowed_types, reason = "of the drivers")]
 pub mod window;
 
 /// The vectors of the systems, in the version whose bits are promised.
 pub use glam;
+#[doc(inline)]
+pub use regatta_sim as sim;
+#[cfg(feature = "view")]
+#[doc(inline)]
+pub use regatta_view as view;
+#[cfg(feature = "lab")]
+#[doc(inline)]
+pub use {
+    regatta_look as look, regatta_loops as loops, regatta_measure as measure, regatta_run as run,
+    regatta_scene as scene, regatta_stage as stage, regatta_studio as studio,
+    regatta_table as table, regatta_tools as tools,
+};
 
 #[cfg(feature = "lab")]
 pub use measure::{advise, try_advise};

@@ -24,7 +24,7 @@ pub use border::CloudBorder;
 use course::{Course, Memory, Subject, copies_of};
 pub use density::{Density, MAX_LINE_PART, PlaneView};
 use lozenges::Lozenges;
-pub(crate) use request::MAX_CLOUDS;
+pub use request::MAX_CLOUDS;
 pub use request::{CloudChoice, CloudPicture, CloudRequest, FoundCloud, LaneCloud, POINTS};
 pub use running::CloudWorker;
 
@@ -221,8 +221,10 @@ impl Cloud {
     /// swing.
     ///
     /// ```
-    /// use regatta::measure::cloud::{Cloud, CloudShape};
-    /// use regatta::prelude::*;
+    /// use regatta_measure::cloud::{Cloud, CloudShape};
+    /// use regatta_scene::LaneSpec;
+    /// use regatta_sim::integrators::method;
+    /// use regatta_sim::{State, System};
     ///
     /// #[derive(Clone)]
     /// struct Buoy;
@@ -240,7 +242,7 @@ impl Cloud {
     /// cloud.advance(300);
     /// // The drag takes e^(-0.3 · 5) of any area.
     /// assert!((cloud.area_ratio().unwrap() - 0.223).abs() < 0.01);
-    /// # Ok::<(), regatta::measure::cloud::NoCloud>(())
+    /// # Ok::<(), regatta_measure::cloud::NoCloud>(())
     /// ```
     ///
     /// # Errors

@@ -65,7 +65,6 @@ pub(super) const MAX_STIFFER: f64 = 10.0;
 /// The smallest number of substeps with which a method meets a criterion, and the margins of the method.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
-#[non_exhaustive]
 pub struct CriterionMet {
     /// Requested tick rate in Hz, at which the criterion is met.
     pub tick_hz: TickRate,

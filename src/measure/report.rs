@@ -153,8 +153,10 @@ impl fmt::Display for Recommendation {
 /// limit](Options::max_work) are counted in evaluations of the acceleration.
 ///
 /// ```
-/// use regatta::prelude::*;
-/// use regatta::sim::integrators::method;
+/// use regatta_measure::advise;
+/// use regatta_scene::Options;
+/// use regatta_sim::integrators::method;
+/// use regatta_sim::{State, System};
 ///
 /// #[derive(Clone)]
 /// struct Spring;
@@ -169,7 +171,7 @@ impl fmt::Display for Recommendation {
 /// let start = State { q: 1.0, v: 0.0 };
 /// let methods = ["semi-implicit-euler", "velocity-verlet", "rk4"].map(|id| method(id).unwrap());
 /// let options = Options { seconds: 5.0, methods: methods.to_vec(), ..Options::default() };
-/// let report = regatta::advise(&Spring, start, options);
+/// let report = advise(&Spring, start, options);
 /// println!("{report}");
 /// let bounded = report.recommended.bounded.expect("some method is bounded");
 /// assert_eq!(bounded.with.substeps, 1);

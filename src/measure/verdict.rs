@@ -273,7 +273,7 @@ impl Verdict {
     }
 
     /// Returns a sort key. The larger the key, the worse the verdict.
-    pub(crate) fn badness(&self) -> (Outcome, f64) {
+    pub fn badness(&self) -> (Outcome, f64) {
         (self.outcome(), self.error().unwrap_or(f64::INFINITY))
     }
 

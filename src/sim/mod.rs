@@ -4,6 +4,13 @@
 //! Everything that is stepped is `f64` and uses only `+ - × ÷ √` and `libm`, so that the same inputs give the same bits
 //! on every platform, in every build profile.
 
+// What a room may not do, and why: see `src/lib.rs` and clippy.toml.
+#![warn(clippy::exit, clippy::print_stderr, clippy::print_stdout)]
+#![cfg_attr(not(test), warn(clippy::disallowed_methods, clippy::disallowed_types))]
+#![warn(clippy::iter_over_hash_type)]
+// docs.rs marks what needs a feature with its name.
+#![cfg_attr(docsrs, feature(doc_cfg))]
+
 #[cfg(feature = "batch")]
 pub mod batch;
 #[cfg(feature = "lab")]
@@ -27,7 +34,7 @@ pub mod law;
 #[cfg(feature = "lab")]
 mod net_plan;
 pub mod number;
-pub(crate) mod numerics;
+pub mod numerics;
 #[cfg(feature = "lab")]
 mod own_method;
 mod parameter;
@@ -40,22 +47,24 @@ mod state;
 mod stepper;
 mod system;
 #[cfg(feature = "lab")]
-pub(crate) mod text;
+pub mod text;
 mod tick_rate;
 mod vec_system;
+
+/// The vectors of the systems, in the version whose bits are promised.
+pub use glam;
 
 pub use body::{Body, Distances, Input, MAX_SWITCHES, NO_BOUNDARIES, Piece};
 pub use body_stepper::stepper;
 pub use clock::{Accumulator, Clock, Due, MAX_FRAME_MS, TickRateError};
-#[cfg(feature = "lab")]
-pub(crate) use fnv::Fnv;
+pub use fnv::Fnv;
 pub use impact::{Bounces, IMPACTS, Impact, Wall, impact};
 #[cfg(feature = "lab")]
-pub(crate) use numerics::golden_section;
+pub use numerics::golden_section;
 #[cfg(feature = "lab")]
 pub use numerics::least_squares;
 #[cfg(feature = "lab")]
-pub(crate) use own_method::MAX_OWN_ID_CHARS;
+pub use own_method::MAX_OWN_ID_CHARS;
 #[cfg(feature = "lab")]
 pub use own_method::{check_own_id, own_method, own_method_id, own_rule};
 pub use parameter::{

@@ -27,7 +27,7 @@ pub(super) fn fourth_order([far_behind, behind, ahead, far_ahead]: [f64; 4], h: 
 /// interval between them `halvings` times. Returns the ends of the remaining interval, `low` first; `low` may be
 /// greater than `high`.
 #[cfg(feature = "lab")]
-pub(crate) fn bisect(
+pub fn bisect(
     [mut low, mut high]: [f64; 2],
     halvings: u32,
     mut is_low: impl FnMut(f64) -> bool,
@@ -95,7 +95,7 @@ mod tests {
 /// Returns the place of the minimum of a function between two places by golden sections, to rounding, if there is only
 /// one minimum between them.
 #[cfg(feature = "lab")]
-pub(crate) fn golden_section(of: &impl Fn(f64) -> f64, [mut from, mut to]: [f64; 2]) -> f64 {
+pub fn golden_section(of: &impl Fn(f64) -> f64, [mut from, mut to]: [f64; 2]) -> f64 {
     const GOLDEN: f64 = 0.618_033_988_749_894_9;
     for _ in 0..60 {
         let [left, right] = [to - GOLDEN * (to - from), from + GOLDEN * (to - from)];

@@ -10,14 +10,14 @@ use super::fnv::Fnv;
 /// Vector>`:
 ///
 /// ```compile_fail,E0277
-/// # use regatta::sim::{Elementwise, System, integrators::{Integrator, LinearlyImplicitEuler}};
+/// # use regatta_sim::{Elementwise, System, integrators::{Integrator, LinearlyImplicitEuler}};
 /// fn step_together<S: System<Vector: Elementwise>>(bodies: &S, like: &S::Vector) {
 ///     let _ = <LinearlyImplicitEuler<S::Vector> as Integrator<S>>::new(like);
 /// }
 /// ```
 ///
 /// ```
-/// # use regatta::sim::{Elementwise, System, integrators::{Integrator, Rk4}};
+/// # use regatta_sim::{Elementwise, System, integrators::{Integrator, Rk4}};
 /// fn step_together<S: System<Vector: Elementwise>>(bodies: &S, like: &S::Vector) {
 ///     let _ = <Rk4<S::Vector> as Integrator<S>>::new(like);
 /// }
@@ -244,13 +244,13 @@ impl Vector for Vec<f64> {
 
 /// Returns an upper bound on the memory of values with this inline `size` in bytes. It assumes one heap vector as long
 /// as `like` for every 24 bytes.
-pub(in crate::sim) fn bytes_with_vectors(size: usize, like: &[f64]) -> usize {
+pub(crate) fn bytes_with_vectors(size: usize, like: &[f64]) -> usize {
     size + size / size_of::<Vec<f64>>() * size_of_val(like)
 }
 
 /// Returns the largest magnitude; NaN if a component is NaN.
 #[inline]
-pub(in crate::sim) fn largest<'a>(components: impl IntoIterator<Item = &'a f64>) -> f64 {
+pub(crate) fn largest<'a>(components: impl IntoIterator<Item = &'a f64>) -> f64 {
     // The bits of magnitudes have the order of the magnitudes; the bits of a NaN are above all others.
     let mut bits = components.into_iter().map(|component| component.abs().to_bits());
     // Four maxima are updated in turn, so that no update waits for the one before it.
@@ -269,7 +269,7 @@ pub(in crate::sim) fn largest<'a>(components: impl IntoIterator<Item = &'a f64>)
 
 /// Returns the number, or infinity if it is NaN, so that no comparison loses the NaN.
 #[inline]
-pub(in crate::sim) fn nan_is_infinite(error: f64) -> f64 {
+pub(crate) fn nan_is_infinite(error: f64) -> f64 {
     if error.is_nan() { f64::INFINITY } else { error }
 }
 

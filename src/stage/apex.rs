@@ -80,8 +80,8 @@ pub(super) fn draw(
 
 #[cfg(test)]
 mod tests {
+    use crate::compose;
     use crate::scene::Scene;
-    use crate::stage::compose;
     use crate::studio::{StageCommand, Studio};
 
     #[test]

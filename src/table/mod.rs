@@ -6,6 +6,14 @@
 //! Numbers may have a decimal comma unless commas separate the cells. Rows of numbers without a header have their
 //! heading in the remark above them, or numbers as names. JSON becomes rows. [`TableOptions`] take precedence.
 
+// What a room may not do, and why: see `src/lib.rs` and clippy.toml.
+#![warn(clippy::exit, clippy::print_stderr, clippy::print_stdout)]
+#![cfg_attr(not(test), warn(clippy::disallowed_methods, clippy::disallowed_types))]
+#![warn(clippy::iter_over_hash_type)]
+
+use regatta_scene as scene;
+use regatta_sim as sim;
+
 use std::io::{self, BufRead, Read};
 
 use csv::ByteRecord;
@@ -20,12 +28,12 @@ mod unit;
 
 pub use encoding::Utf8;
 #[cfg(feature = "serde")]
-pub(crate) use json::Cells;
+pub use json::Cells;
 pub use moment::{Course, Moment, median};
 pub use number::{Decimal, number};
 use options::RowFilter;
 pub use options::{TableOptions, Taken, column};
-pub(crate) use unit::words;
+pub use unit::words;
 pub use unit::{Heading, Unit};
 
 /// Maximum number of lines above a header, not counting remarks and blank lines.
@@ -36,7 +44,7 @@ pub const MAX_ROW_BYTES: usize = 1 << 20;
 /// Maximum number of bytes in the header and all lines above it.
 const MAX_HEAD_BYTES: usize = 1 << 22;
 /// Number of bytes that are read from an input at once.
-pub(crate) const BUFFER_BYTES: usize = 1 << 20;
+pub const BUFFER_BYTES: usize = 1 << 20;
 
 /// Options for reading a table.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -115,7 +123,7 @@ fn cells_in_words(cells: usize, header: usize) -> String {
 fn names_of(header: &ByteRecord) -> String {
     let names = header.iter().map(|name| String::from_utf8_lossy(name).trim().to_owned());
     let names: Vec<String> = names.map(|name| format!("\"{name}\"")).collect();
-    crate::scene::clip_list(names.iter().map(String::as_str))
+    scene::clip_list(names.iter().map(String::as_str))
 }
 
 /// The text of a table: that of the input, or of the JSON in it.

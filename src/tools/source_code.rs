@@ -190,7 +190,7 @@ pub fn impact_code(impact: &Impact, language: Language) -> Result<String, String
 /// The reason why the lines cannot be printed, as a clause.
 ///
 /// ```
-/// use regatta::tools::source_code::{Language, loop_code};
+/// use regatta_tools::source_code::{Language, loop_code};
 ///
 /// let code = loop_code("mine", "tick 1 of dt", Language::Rust).unwrap();
 /// assert!(code.contains("step(duration_ms / self.second);"));
