@@ -223,8 +223,7 @@ impl Cloud {
     /// ```
     /// use regatta_measure::cloud::{Cloud, CloudShape};
     /// use regatta_scene::LaneSpec;
-    /// use regatta_sim::integrators::method;
-    /// use regatta_sim::{State, System};
+    /// use regatta_sim::prelude::*;
     ///
     /// #[derive(Clone)]
     /// struct Buoy;

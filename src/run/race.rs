@@ -104,7 +104,7 @@ impl Race {
     /// ```
     /// use regatta_run::Race;
     /// use regatta_scene::Options;
-    /// use regatta_sim::{State, System};
+    /// use regatta_sim::prelude::*;
     ///
     /// #[derive(Clone)]
     /// struct Spring;

@@ -82,7 +82,7 @@ impl fmt::Display for Conformance {
 ///
 /// ```
 /// use regatta_sim::conformance::check;
-/// use regatta_sim::integrators::method;
+/// use regatta_sim::prelude::*;
 ///
 /// let found = check(method("midpoint").expect("a built-in method"));
 /// assert!(found.holds(), "{found}");

@@ -34,10 +34,12 @@ pub mod law;
 #[cfg(feature = "lab")]
 mod net_plan;
 pub mod number;
+#[cfg(feature = "lab")]
 pub mod numerics;
 #[cfg(feature = "lab")]
 mod own_method;
 mod parameter;
+pub mod prelude;
 mod propagator;
 mod reference;
 mod spin;
@@ -59,14 +61,6 @@ pub use body_stepper::stepper;
 pub use clock::{Accumulator, Clock, Due, MAX_FRAME_MS, TickRateError};
 pub use fnv::Fnv;
 pub use impact::{Bounces, IMPACTS, Impact, Wall, impact};
-#[cfg(feature = "lab")]
-pub use numerics::golden_section;
-#[cfg(feature = "lab")]
-pub use numerics::least_squares;
-#[cfg(feature = "lab")]
-pub use own_method::MAX_OWN_ID_CHARS;
-#[cfg(feature = "lab")]
-pub use own_method::{check_own_id, own_method, own_method_id, own_rule};
 pub use parameter::{
     Fault, MAX_POINTS, MAX_VALUE, Parameter, ParameterOf, Range, TakesEffect, Text,
 };
@@ -77,3 +71,8 @@ pub use system::{
     BodyClass, Counted, Coupling, EngineSettings, Evaluation, Pursuit, Query, StateOf, System,
 };
 pub use tick_rate::TickRate;
+#[cfg(feature = "lab")]
+pub use {
+    numerics::{golden_section, least_squares},
+    own_method::{MAX_OWN_ID_CHARS, check_own_id, own_method, own_method_id, own_rule},
+};

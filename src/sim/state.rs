@@ -107,10 +107,12 @@ macro_rules! small {
         impl Vector for $Small {
             const IS_SMALL: bool = true;
 
+            #[inline]
             fn components(&self) -> &[f64] {
                 $components(self)
             }
 
+            #[inline]
             fn components_mut(&mut self) -> &mut [f64] {
                 $components_mut(self)
             }
@@ -146,10 +148,12 @@ impl<const W: usize> Elementwise for [f64; W] {
 impl<const N: usize> Vector for [f64; N] {
     const IS_SMALL: bool = N <= 4;
 
+    #[inline]
     fn components(&self) -> &[f64] {
         self
     }
 
+    #[inline]
     fn components_mut(&mut self) -> &mut [f64] {
         self
     }
@@ -234,11 +238,22 @@ fn other_length(found: usize, wanted: usize) -> ! {
 }
 
 impl Vector for Vec<f64> {
+    #[inline]
     fn components(&self) -> &[f64] {
         self
     }
+    #[inline]
     fn components_mut(&mut self) -> &mut [f64] {
         self
+    }
+}
+
+/// Overwrites each value `ahead` with its difference from the value `behind`, divided by the `distance` between the
+/// two. The caller must justify its choice of distance.
+#[inline]
+pub(crate) fn quotient(ahead: &mut [f64], behind: &[f64], distance: f64) {
+    for (ahead, behind) in ahead.iter_mut().zip(behind) {
+        *ahead = (*ahead - behind) / distance;
     }
 }
 

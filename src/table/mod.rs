@@ -19,7 +19,6 @@ use std::io::{self, BufRead, Read};
 use csv::ByteRecord;
 
 mod encoding;
-#[cfg(feature = "serde")]
 mod json;
 mod moment;
 mod number;
@@ -27,7 +26,6 @@ mod options;
 mod unit;
 
 pub use encoding::Utf8;
-#[cfg(feature = "serde")]
 pub use json::Cells;
 pub use moment::{Course, Moment, median};
 pub use number::{Decimal, number};
@@ -129,9 +127,7 @@ fn names_of(header: &ByteRecord) -> String {
 /// The text of a table: that of the input, or of the JSON in it.
 enum Text<R> {
     Plain(io::Chain<io::Cursor<Vec<u8>>, R>),
-    #[cfg(feature = "serde")]
     Whole(io::Cursor<Vec<u8>>),
-    #[cfg(feature = "serde")]
     Lines(json::Lines<io::Chain<io::Cursor<Vec<u8>>, R>>),
 }
 
@@ -143,7 +139,6 @@ impl<R: BufRead> Text<R> {
     fn of(mut input: R) -> Result<(Self, Option<bool>), TableFault> {
         let mut start = Vec::new();
         (&mut input).take(START_BYTES).read_to_end(&mut start).map_err(TableFault::Input)?;
-        #[cfg(feature = "serde")]
         if json::is_json(&start) {
             let input = io::Cursor::new(start).chain(input);
             return Ok(match json::convert(input).map_err(TableFault::Json)? {
@@ -159,9 +154,7 @@ impl<R: BufRead> Text<R> {
     fn input(&mut self) -> &mut dyn BufRead {
         match self {
             Self::Plain(input) => input,
-            #[cfg(feature = "serde")]
             Self::Whole(input) => input,
-            #[cfg(feature = "serde")]
             Self::Lines(input) => input,
         }
     }
@@ -169,7 +162,6 @@ impl<R: BufRead> Text<R> {
     /// Number of lines of the text that are not lines of the input.
     fn own_lines(&self) -> u64 {
         match self {
-            #[cfg(feature = "serde")]
             Self::Lines(_) => 1,
             _ => 0,
         }

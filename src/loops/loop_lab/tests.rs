@@ -1,6 +1,5 @@
 use super::*;
 use crate::measure::Severity;
-use crate::scene::Action;
 use crate::sim::TickRate;
 use crate::sim::integrators::method;
 use crate::{policy, trace_file};

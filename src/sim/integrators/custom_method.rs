@@ -26,8 +26,7 @@ impl<V, I: for<'a> Integrator<AnySystem<'a, V>> + Clone + 'static> AnyIntegrator
 /// [`Method::custom`](super::Method::custom) on a custom method's card:
 ///
 /// ```
-/// use regatta_sim::integrators::{Family, Integrator, Method, StepFailure, custom_integrator};
-/// use regatta_sim::{State, System};
+/// use regatta_sim::prelude::*;
 ///
 /// /// Explicit Euler's step.
 /// #[derive(Clone)]

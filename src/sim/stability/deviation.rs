@@ -5,8 +5,8 @@ use nalgebra::DMatrix;
 
 use crate::bodies::{Custom, Extras};
 use crate::integrators::Method;
-use crate::numerics::quotient;
 use crate::state::largest;
+use crate::state::quotient;
 use crate::{Solver, State, Stepper, System, stepper};
 
 /// Returns the acceleration of a body in a state, coordinates first.

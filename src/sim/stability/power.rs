@@ -3,8 +3,9 @@
 
 use super::{Tick, deviation};
 use crate::integrators::{Method, StepFailure};
-use crate::numerics::{XorShift, quotient};
+use crate::numerics::XorShift;
 use crate::state::largest;
+use crate::state::quotient;
 use crate::{Solver, Stepper};
 
 /// The maximum number of iterations, enough for a radius accurate to a thousandth.

@@ -7,8 +7,8 @@ use super::claims::{check_start, first_key};
 use crate::bodies::kind::{Coordinate, Kind, Origin};
 use crate::body::Body;
 use crate::law::{CoordinateText, Equations, LawFault, LawText};
-use crate::numerics::quotient;
 use crate::parameter::{Fault, Parameter, Range, TakesEffect, Text};
+use crate::state::quotient;
 use crate::system::System;
 
 /// Returns the kind of bodies that move by this law. The parameters of the kind are the constants, then the starts

@@ -6,7 +6,7 @@
 //! A difference that only steers an iteration is a forward difference from the known force. It is so short that a
 //! corner of the force is seldom within its reach.
 
-use crate::numerics::quotient;
+use crate::state::quotient;
 use crate::state::{State, Vector, assert_length, largest};
 use crate::system::{Query, System};
 

@@ -13,8 +13,8 @@
 use super::Newton;
 use crate::integrators::shared::krylov::dot;
 use crate::integrators::shared::stages::{Stages, largest_of};
-use crate::numerics::quotient;
 use crate::state::Vector;
+use crate::state::quotient;
 use crate::system::System;
 
 /// The longest arc length of a step, in each of three attempts. Longer steps can jump to a nearby curve that leads
