@@ -63,8 +63,8 @@ pub struct MapRequest {
 }
 
 impl MapRequest {
-    /// Requests the map of a parameter of a body, by their indices, around these values of its parameters. Each method has its
-    /// index in the list.
+    /// Requests the map of a parameter of a body, by their indices, around these values of its parameters. Each method
+    /// has its index in the list.
     pub fn new(
         (body, parameter): (usize, usize),
         opened: &SceneBody,

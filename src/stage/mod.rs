@@ -35,7 +35,6 @@ mod loop_stage;
 mod mass;
 mod moment;
 mod outgrown;
-pub mod picture_note;
 mod scale_marks;
 mod sketch;
 mod trails;

@@ -61,6 +61,7 @@ mod notice;
 mod notices;
 mod opening;
 mod pace;
+pub mod picture_note;
 mod pulling;
 mod restarting;
 mod resting;

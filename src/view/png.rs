@@ -4,7 +4,7 @@ use image::codecs::png::{CompressionType, FilterType, PngEncoder};
 use image::{ExtendedColorType, ImageEncoder};
 use png::text_metadata::{EncodableTextChunk, TEXtChunk};
 
-use crate::stage::picture_note::SOFTWARE;
+use crate::studio::picture_note::SOFTWARE;
 
 /// Length of the signature and the header, after which the note follows.
 const HEADER_BYTES: usize = 33;
@@ -55,7 +55,7 @@ fn note() -> Vec<u8> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::stage::picture_note::{NOTED_WITHIN, is_encoded_here};
+    use crate::studio::picture_note::{NOTED_WITHIN, is_encoded_here};
 
     #[test]
     fn a_picture_survives_to_the_bit_with_its_origin() {
