@@ -357,7 +357,7 @@ impl Cloud {
     /// Measures the cloud at its current tick.
     pub fn measure(&self) -> CloudMeasure {
         let area_ratio = self.area_ratio();
-        let mut hash = Fnv::new();
+        let mut hash = Fnv::default();
         for &number in self.q().iter().chain(self.v()) {
             // The bits of a NaN depend on the processor.
             hash.number(if number.is_nan() { f64::NAN } else { number });

@@ -335,7 +335,7 @@ impl Race {
     /// Returns a hash of the tick and of the state bits in every lane, without the truth. Equal physics has equal
     /// hashes on every platform and in every build. The hash is 64-bit FNV-1a over little-endian words, with -0 as 0.
     pub fn state_hash(&self) -> u64 {
-        let mut hash = Fnv::new();
+        let mut hash = Fnv::default();
         hash.word(self.tick);
         self.entrants.iter().for_each(|entrant| hash_lane(&mut hash, &entrant.lane));
         hash.0
@@ -344,7 +344,7 @@ impl Race {
     /// Returns for each lane the [`Race::state_hash`] of a race of this lane alone.
     pub fn lane_hashes(&self) -> impl Iterator<Item = u64> {
         self.entrants.iter().map(|entrant| {
-            let mut hash = Fnv::new();
+            let mut hash = Fnv::default();
             hash.word(self.tick);
             hash_lane(&mut hash, &entrant.lane);
             hash.0

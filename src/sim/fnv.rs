@@ -3,12 +3,14 @@
 /// The state of a 64-bit FNV-1a hash over little-endian words.
 pub struct Fnv(pub u64);
 
-impl Fnv {
+impl Default for Fnv {
     /// Returns the hash of nothing.
-    pub fn new() -> Self {
+    fn default() -> Self {
         Self(0xcbf2_9ce4_8422_2325)
     }
+}
 
+impl Fnv {
     /// Adds a number by its bits, with -0 as 0.
     pub fn number(&mut self, value: f64) {
         self.word(if value == 0.0 { 0 } else { value.to_bits() });

@@ -62,6 +62,17 @@ impl XorShift {
     }
 }
 
+/// Returns the place of the minimum of a function between two places by golden sections, to rounding, if there is only
+/// one minimum between them.
+pub fn golden_section(of: &impl Fn(f64) -> f64, [mut from, mut to]: [f64; 2]) -> f64 {
+    const GOLDEN: f64 = 0.618_033_988_749_894_9;
+    for _ in 0..60 {
+        let [left, right] = [to - GOLDEN * (to - from), from + GOLDEN * (to - from)];
+        if of(left) < of(right) { to = right } else { from = left }
+    }
+    (from + to) / 2.0
+}
+
 #[cfg(test)]
 mod tests {
     use super::least_squares;
@@ -74,15 +85,4 @@ mod tests {
         assert_eq!(least_squares(&columns, &[1.0, f64::NAN, 0.0, 0.0]), None);
         assert_eq!(least_squares(&[vec![1.0], vec![2.0]], &[1.0]), None);
     }
-}
-
-/// Returns the place of the minimum of a function between two places by golden sections, to rounding, if there is only
-/// one minimum between them.
-pub fn golden_section(of: &impl Fn(f64) -> f64, [mut from, mut to]: [f64; 2]) -> f64 {
-    const GOLDEN: f64 = 0.618_033_988_749_894_9;
-    for _ in 0..60 {
-        let [left, right] = [to - GOLDEN * (to - from), from + GOLDEN * (to - from)];
-        if of(left) < of(right) { to = right } else { from = left }
-    }
-    (from + to) / 2.0
 }

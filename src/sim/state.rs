@@ -317,7 +317,7 @@ impl<V: Vector> State<V> {
     /// Returns a hash of the bits, with -0 as 0: 64-bit FNV-1a over little-endian words, coordinates first. It is the
     /// same on every platform and in every release.
     pub fn bits_hash(&self) -> u64 {
-        let mut hash = Fnv::new();
+        let mut hash = Fnv::default();
         self.numbers().for_each(|number| hash.number(number));
         hash.0
     }
