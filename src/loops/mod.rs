@@ -6,7 +6,7 @@
 //! steps bodies by a policy, a [`LoopRun`] runs such a lane over a trace, and [`PACING_METRICS`] measure how the motion
 //! looks on the display. Time is counted in whole numbers of a [`TimeBase`]; there is no clock here.
 
-// What a room may not do, and why: see `src/lib.rs` and clippy.toml.
+// The rules of a room: see `src/lib.rs` and clippy.toml.
 #![warn(clippy::exit, clippy::print_stderr, clippy::print_stdout)]
 #![cfg_attr(not(test), warn(clippy::disallowed_methods, clippy::disallowed_types))]
 #![warn(clippy::iter_over_hash_type)]

@@ -6,7 +6,7 @@
 //! anatomy of a tick, and a [`FutureCurve`] is the next second of a body. [`advise`] reports on a custom body. An
 //! [`AnalysisWorker`] does all of this beside a run, in slices.
 
-// What a room may not do, and why: see `src/lib.rs` and clippy.toml.
+// The rules of a room: see `src/lib.rs` and clippy.toml.
 #![warn(clippy::exit, clippy::print_stderr, clippy::print_stdout)]
 #![cfg_attr(not(test), warn(clippy::disallowed_methods, clippy::disallowed_types))]
 #![warn(clippy::iter_over_hash_type)]

@@ -7,7 +7,7 @@
 //! Each tick updates the [`METRICS`]. A [`trace`] tabulates them, and [`diff`] compares two such tables. A [`link`]
 //! is a run in an address.
 
-// What a room may not do, and why: see `src/lib.rs` and clippy.toml.
+// The rules of a room: see `src/lib.rs` and clippy.toml.
 #![warn(clippy::exit, clippy::print_stderr, clippy::print_stdout)]
 #![cfg_attr(not(test), warn(clippy::disallowed_methods, clippy::disallowed_types))]
 #![warn(clippy::iter_over_hash_type)]

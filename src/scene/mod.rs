@@ -5,7 +5,7 @@
 //! so that a scene may name any entry of them. The reader reports all faults of a file at once, each with its place and
 //! its remedy; a [`Scene`] has no faults.
 
-// What a room may not do, and why: see `src/lib.rs` and clippy.toml.
+// The rules of a room: see `src/lib.rs` and clippy.toml.
 #![warn(clippy::exit, clippy::print_stderr, clippy::print_stdout)]
 #![cfg_attr(not(test), warn(clippy::disallowed_methods, clippy::disallowed_types))]
 #![warn(clippy::iter_over_hash_type)]

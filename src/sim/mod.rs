@@ -4,7 +4,7 @@
 //! Everything that is stepped is `f64` and uses only `+ - × ÷ √` and `libm`, so that the same inputs give the same bits
 //! on every platform, in every build profile.
 
-// What a room may not do, and why: see `src/lib.rs` and clippy.toml.
+// The rules of a room: see `src/lib.rs` and clippy.toml.
 #![warn(clippy::exit, clippy::print_stderr, clippy::print_stdout)]
 #![cfg_attr(not(test), warn(clippy::disallowed_methods, clippy::disallowed_types))]
 #![warn(clippy::iter_over_hash_type)]

@@ -1,4 +1,4 @@
-//! What a game's own loop needs, in one import. The vectors of the systems are in [`glam`], because a game
+//! The names that a game's own loop needs, in one import. The vectors of the systems are in [`glam`], because a game
 //! may use another version of it.
 
 pub use crate::integrators::{

@@ -3,7 +3,7 @@
 //! Lengths are logical points from the stage's top left corner, y down; colours are straight sRGB with alpha.
 //! Everything in a [`Picture`] is finite and within [`FAR`] of the stage, for any state of the lanes.
 
-// What a room may not do, and why: see `src/lib.rs` and clippy.toml.
+// The rules of a room: see `src/lib.rs` and clippy.toml.
 #![warn(clippy::exit, clippy::print_stderr, clippy::print_stdout)]
 #![cfg_attr(not(test), warn(clippy::disallowed_methods, clippy::disallowed_types))]
 #![warn(clippy::iter_over_hash_type)]

@@ -5,7 +5,7 @@
 //! itself to the driver, as a [`DriverRequest`]. Its [`Viewer`] has the [`Preferences`], which outlast the scene, and
 //! the [`View`], which does not. [`INSTRUMENTS`] surround the stage, and the [`guide`] leads through the scenes.
 
-// What a room may not do, and why: see `src/lib.rs` and clippy.toml.
+// The rules of a room: see `src/lib.rs` and clippy.toml.
 #![warn(clippy::exit, clippy::print_stderr, clippy::print_stdout)]
 #![cfg_attr(not(test), warn(clippy::disallowed_methods, clippy::disallowed_types))]
 #![warn(clippy::iter_over_hash_type)]

@@ -6,7 +6,7 @@
 //! Numbers may have a decimal comma unless commas separate the cells. Rows of numbers without a header have their
 //! heading in the remark above them, or numbers as names. JSON becomes rows. [`TableOptions`] take precedence.
 
-// What a room may not do, and why: see `src/lib.rs` and clippy.toml.
+// The rules of a room: see `src/lib.rs` and clippy.toml.
 #![warn(clippy::exit, clippy::print_stderr, clippy::print_stdout)]
 #![cfg_attr(not(test), warn(clippy::disallowed_methods, clippy::disallowed_types))]
 #![warn(clippy::iter_over_hash_type)]

@@ -1,7 +1,7 @@
 //! A developer's tools. They identify the method behind a log, port a spring to other engines, print a method's
 //! source code, and show a game's own lines at every frame rate.
 
-// What a room may not do, and why: see `src/lib.rs` and clippy.toml.
+// The rules of a room: see `src/lib.rs` and clippy.toml.
 #![warn(clippy::exit, clippy::print_stderr, clippy::print_stdout)]
 #![cfg_attr(not(test), warn(clippy::disallowed_methods, clippy::disallowed_types))]
 #![warn(clippy::iter_over_hash_type)]

@@ -4,7 +4,7 @@
 //! and in the destination of its pixels. Colours are blended as they are stored, in gamma space, so all textures to
 //! draw on have a format without `Srgb` in its name.
 
-// What a room may not do, and why: see `src/lib.rs` and clippy.toml.
+// The rules of a room: see `src/lib.rs` and clippy.toml.
 #![warn(clippy::exit, clippy::print_stderr, clippy::print_stdout)]
 #![cfg_attr(not(test), warn(clippy::disallowed_methods, clippy::disallowed_types))]
 
