@@ -3,49 +3,25 @@
 //! `cargo bench --bench spin` prints each gyroscopic method in steps of Runge-Kutta on a spring, and the frame of the
 //! scene `coin` at 1280×720 by the processor, as PNG, in frames of `spring`. The two take turns in one process.
 
+mod beside_spring;
+
 use std::hint::black_box;
 use std::num::NonZero;
 use std::time::Instant;
 
+use beside_spring::{ROUNDS, SPRING, median, stepper, stretch_ns};
 use regatta::scene::Scene;
-use regatta::sim::bodies::kind;
-use regatta::sim::integrators::{METHODS, Method, method};
-use regatta::sim::{Solver, Stepper};
+use regatta::sim::integrators::{METHODS, method};
 use regatta::studio::Studio;
 use regatta::view::{CpuExecutor, FrameRenderer, png};
 
-/// Ticks in one stretch, their length, and the rounds in which both take their turn.
-const TICKS: u32 = 2000;
-const TICK_S: f64 = 1.0 / 60.0;
-const ROUNDS: usize = 101;
 const SIZE_PX: [u32; 2] = [1280, 720];
 const FRAMES: usize = 120;
 /// A frame at 60 a second.
 const FRAME_NS: i64 = 16_666_667;
 
-const SPRING: [f64; 6] = [1.0, 39.47841760435743, 0.05, 1.0, 0.0, 3.0];
 /// Moments, spin, attitude, mass and kick.
 const COIN: [f64; 14] = [1.0, 2.0, 1.0, 0.3, 6.0, 0.2, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0];
-
-fn stepper(body: &str, values: &[f64], method: &'static Method) -> Box<dyn Stepper> {
-    let kind = kind(body).expect("a body of the table");
-    black_box((kind.build)(values, Solver::Method(method)))
-}
-
-/// Nanoseconds a step, over a stretch from the start.
-fn stretch_ns(stepper: &mut dyn Stepper, [q, v]: &[Vec<f64>; 2]) -> f64 {
-    stepper.set(0.0, q, v);
-    let start = Instant::now();
-    for tick in 0..TICKS {
-        stepper.advance(f64::from(tick) * TICK_S, TICK_S, 1).expect("a gentle motion");
-    }
-    start.elapsed().as_secs_f64() * 1e9 / f64::from(TICKS)
-}
-
-fn median(mut values: Vec<f64>) -> f64 {
-    values.sort_by(f64::total_cmp);
-    values[values.len() / 2]
-}
 
 /// A run with panels, and its pictures.
 struct Film {

@@ -18,6 +18,7 @@ use crate::scene::{LaneSpec, Scene};
 use crate::sim::integrators::{Family, METHODS};
 use crate::tools::source_code::Language;
 
+mod impact;
 mod judged;
 mod report;
 
@@ -36,6 +37,9 @@ each criterion, advise finds the fewest substeps per tick, 1 to 64:
                a swing, the motion stays within 5 % of its range
   accurate     over the scene no coordinate or velocity is off by more than 1 % of its amplitude
 
+A ball is judged by its bounces and a body that turns in space by its attitude and its flips, as
+`regatta help scenes` says.
+
 The answer is one method: one that looks right, or else is bounded, or else accurate. It has the lowest
 cost; if equal, the largest reserve, then a symplectic method before others, then the fewest substeps.
 Explicit Euler comes after every other method of its cost.
@@ -50,7 +54,11 @@ substeps, HOLDS UP TO the factor by which the named parameter may grow, 10 at mo
 both come to; NS/S is measured now, and decides nothing. In JSON, a criterion that is not met has only met, which is false;
 an unknown one is null, and take names the criterion of the answer.
 
-For a custom spring (--k or --frequency), or with --as, the answer ends with the method as a function.
+For a ball, a line more names the rule for its impacts (`regatta list impacts`) that belongs to the method,
+in JSON impact, and what the rule of your scene does.
+
+For a custom spring (--k or --frequency), or with --as, the answer ends with the method as a function, for
+a ball without drag with its exact bounces.
 
 Examples:
   regatta advise --scene harbour

@@ -29,8 +29,8 @@ use crate::scene::{LaneSpec, Scene, SceneBody};
 
 const ABOUT: &str = "\
 The starts fill the shape evenly about the scene's start, in the plane of the coordinate and the
-velocity of its first body of one coordinate. The cloud ignores the scene's script. One row for each
-method:
+velocity of its first body of one coordinate. Those of a body that turns in space fill it on the
+sphere of the directions of its L. The cloud ignores the scene's script. One row for each method:
   points            the starts that have not blown up
   area_ratio        the area divided by the area at the start; empty if no point is left, or if the
                     cloud is too fine, folded or torn to measure
@@ -51,10 +51,12 @@ pub(super) struct CloudArgs {
     #[command(flatten)]
     experiment: ExperimentArgs,
 
-    /// Starts, 1 to 1000000000
-    #[arg(long, value_name = "N", default_value_t = USUAL_POINTS as u64)]
+    /// Starts, 1 to 1000000000 [default: 100000]
+    ///
+    /// For a body that turns in space the default is 10000.
+    #[arg(long, value_name = "N")]
     #[arg(value_parser = clap::value_parser!(u64).range(1..=1_000_000_000))]
-    points: u64,
+    points: Option<u64>,
 
     /// The shape of the starts: cat, disc or ring
     #[arg(long, value_name = "SHAPE", default_value = CloudShape::default().id())]
@@ -65,7 +67,7 @@ pub(super) struct CloudArgs {
     /// The reach of the shape
     ///
     /// In the unit of the coordinate. The default is a quarter of the swing; clouds in the window are small, and reach
-    /// twice as far.
+    /// twice as far. For a body that turns in space it is an angle, by default 0.05 rad.
     #[arg(long, value_name = "R", value_parser = reach)]
     reach: Option<f64>,
 
@@ -98,6 +100,9 @@ pub(super) struct CloudArgs {
     force: bool,
 }
 
+/// Cost of stepping a body that turns in space, roughly, in steps of a body of one coordinate.
+const SPINS_COST: usize = 10;
+
 /// Minimum reach of a cloud. A smaller cloud is lost in the rounding of its states.
 const MIN_REACH: f64 = 1e-6;
 
@@ -109,8 +114,10 @@ fn reach(written: &str) -> Result<f64, String> {
 fn no_cloud(why: NoCloud) -> Error {
     Error::mistake(match why {
         NoCloud::TooMany { .. } => format!("{why} --points"),
+        NoCloud::OverThePole { .. } => why.to_string(),
         why => format!(
-            "{why}; give a scene with a body of one coordinate, such as pendulum, spring or duffing"
+            "{why}; give a scene with a body of one coordinate, such as pendulum, spring or duffing, or with one that turns \
+             in space, such as coin"
         ),
     })
 }
@@ -217,7 +224,8 @@ fn rows(
     let of = CloudBody { name: &of_scene.name, kind: &of_scene.kind, body: &*body };
     let start = CloudStart::about(of, args.shape, args.reach);
     let start = start.map_err(no_cloud)?;
-    let points = args.points as usize;
+    let usual = if start.is_on_sphere { USUAL_POINTS / SPINS_COST } else { USUAL_POINTS };
+    let points = args.points.map_or(usual, |points| points as usize);
     Cloud::find_room(points, specs).map_err(no_cloud)?;
     let cloud = |spec: &LaneSpec| {
         let cloud = Cloud::new(of, spec, start, points, scene.tick_hz);

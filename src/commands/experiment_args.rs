@@ -85,6 +85,10 @@ impl ExperimentArgs {
             return Err(Error::mistake("--impact is for scenes with a ball, such as --scene ball"));
         }
         let scene = scene.with_impacts(&self.methods, &self.impacts);
+        let mut lanes = scene.lanes.iter();
+        if let Some(refusal) = lanes.find_map(|lane| lane.impact.refusal(lane.method)) {
+            return Err(Error::mistake(format!("--impact: {refusal}")));
+        }
         match scene.lanes.len() {
             0..=MAX_LANES => Ok(scene),
             many => Err(Error::mistake(format!(

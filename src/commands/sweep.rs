@@ -20,6 +20,7 @@ use super::scene_file;
 use super::spring::SpringArgs;
 use super::tick_rate::TickRatesArgs;
 use crate::atomic_file::IfExists;
+use crate::measure::Finding;
 use crate::scene::{SCENES, Scene, SceneBody};
 use crate::sim::Impact;
 use crate::sim::bodies::incompatibility;
@@ -35,6 +36,9 @@ mod varied;
 use grid::{Grid, Row, Swept};
 use varied::{Varied, varied};
 
+/// Number of the last columns, which only bodies that turn in space have.
+const OF_SPINS: usize = 1;
+
 const ABOUT: &str = "\
 One row for each scene, body, method and tick rate, in that order whatever the number of threads:
   error                 the largest error of a coordinate or a velocity, as a fraction of its
@@ -47,6 +51,8 @@ One row for each scene, body, method and tick rate, in that order whatever the n
                         no-truth or not-judged, as `regatta advise` judges
   halted                the reason, if it blew up or gave up
   half_life_ms, overshoot_percent  of a follower
+  attitude_error        the largest angle from the true attitude in radians; with scenes of bodies
+                        that turn in space
   parameter, value      the parameter that --vary sets, and its value
 
 Octaves are a quarter, half, 1, 2, 4 and 8 times the scene's own rate, rounded down.
@@ -156,7 +162,9 @@ pub(super) fn run(args: &SweepArgs) -> Result<(), Error> {
         .map(|to| Plot::open(to, swept.scenes.len() + usize::from(args.round_off)))
         .transpose()?;
     let rows = Grid::new(&swept).run(args.threads.map(usize::from), &interrupted)?;
-    let written = write_rows(out, format, COLUMNS, &rows);
+    let spins = rows.iter().any(|row| matches!(row.verdict.finding, Finding::Spun(_)));
+    let columns = if spins { COLUMNS } else { &COLUMNS[..COLUMNS.len() - OF_SPINS] };
+    let written = write_rows(out, format, columns, &rows);
     // The picture is drawn even if the rows could not be written, because their reader may have closed the pipe after
     // the first few.
     #[cfg(feature = "view")]
@@ -193,8 +201,11 @@ impl SweepArgs {
             }
         }
         if let Some(impact) = self.impact {
+            if let Some(refusal) = self.methods.iter().find_map(|method| impact.refusal(method)) {
+                return Err(Error::mistake(format!("--impact: {refusal}")));
+            }
             let lanes = scenes.iter_mut().flat_map(|(_, scene)| &mut scene.lanes);
-            lanes.for_each(|lane| lane.impact = impact);
+            lanes.for_each(|lane| *lane = lane.with_impact(impact));
         }
         let asked = |method: &&Method| match &self.methods[..] {
             [] => method.is_for_games() || method.rule_fps().is_some(),
@@ -247,4 +258,8 @@ const COLUMNS: &[Column<Row>] = &[
     }),
     Column::new("parameter", |row| json!(row.varied.as_ref().map(|(key, _)| key))),
     Column::new("value", |row| json!(row.varied.as_ref().map(|(_, value)| value))),
+    Column::new("attitude_error", |row| {
+        let Finding::Spun(found) = &row.verdict.finding else { return json!(null) };
+        json!(found.attitude.0)
+    }),
 ];

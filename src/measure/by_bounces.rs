@@ -21,6 +21,9 @@ const SUNK_S: f64 = 0.5;
 const AT_REST_S: f64 = 1.0;
 const AT_END: f64 = 0.2;
 
+/// Depth in metres at which an engine may leave a ball at rest.
+const SLOP: f64 = 0.025;
+
 /// Part of a tick's way within which a ball lands on a tick.
 const ON_TICK: f64 = 1e-9;
 
@@ -49,6 +52,7 @@ pub(super) async fn follow_bounces(
     let (mut below_since, mut highest, mut highest_last) = (None, 0.0_f64, 0.0_f64);
     let mut heights = vec![followed.body.stepper.q()[0]];
     let [sunk_s, rest_s] = [SUNK_S, AT_REST_S].map(|most| most.min(AT_END * until_s));
+    let slop = if spec.method.bounce().is_some() { SLOP } else { 0.0 };
     let (mut seconds, mut evaluations) = (0.0, 0);
     let mut before = Bounces::default();
     let see = |body: &FollowedBody, tick: u64| {
@@ -60,7 +64,7 @@ pub(super) async fn follow_bounces(
         if t + rest_s > until_s {
             highest_last = highest_last.max(y);
         }
-        below_since = if y < 0.0 { below_since.or(Some(t)) } else { None };
+        below_since = if y < -slop { below_since.or(Some(t)) } else { None };
         let now = body.stepper.bounces().copied().unwrap_or_default();
         let has_peaked = (now.apex, now.apex_after) != (before.apex, before.apex_after);
         if now.impacts > before.impacts || has_peaked {

@@ -1,10 +1,12 @@
 //! Follows a body that turns in space beside its truth.
 
 use std::ops::ControlFlow;
+use std::sync::Arc;
 
+use super::criterion::VISIBLE;
 use super::pace::Pace;
 use super::spin_finding::SpinFinding;
-use super::truth::{BodyTruth, FollowedBody, ticks};
+use super::truth::{BodyTruth, FollowedBody, FollowedRun, LONG_RUN, TruthSeries, ticks};
 use super::verdict::RunFailure;
 use crate::run::race::StopReason;
 use crate::sim::bodies::Tumble;
@@ -41,31 +43,93 @@ impl Flips {
     }
 }
 
-/// Runs the body of `truth` at this pace over the horizon, with its inputs.
-pub(super) async fn follow_spin(
-    truth: &BodyTruth,
-    Pace { spec, tick_hz }: Pace,
-    max_work: u64,
-) -> SpinRun {
-    let end = ticks(truth.horizon_s, tick_hz);
-    let series = truth.series(tick_hz).await;
-    let max_work = max_work.min(truth.meter.budget_left());
-    let mut followed = truth.follow(spec.solver(), spec.substeps, tick_hz).with_max_work(max_work);
-    let mut run = SpinRun { is_too_much: series.is_too_much, ..SpinRun::default() };
-    let Some(start) = followed.body.stepper.body().downcast_ref::<Tumble>().cloned() else {
-        return run;
-    };
-    let n = followed.body.stepper.q().len();
-    let of_axis = start.momentum_in_body(followed.body.stepper.v());
-    let axis = of_axis.abs().max_position();
-    let way = of_axis[axis].signum();
-    let (mut own, mut exact) = (Flips::default(), Flips::default());
-    let lean = |body: &Tumble, v: &[f64]| {
+/// The axis of a body with the largest part of L, as it leans away from where L is at the start.
+struct Axis {
+    index: usize,
+    way: f64,
+    /// The lean in radians above which it has tipped over.
+    tipped: f64,
+}
+
+impl Axis {
+    /// Returns the axis of a body with these velocities, and those of its true states.
+    fn of<'s>(body: &Tumble, v: &[f64], true_v: impl Iterator<Item = &'s [f64]>) -> Self {
         let momentum = body.momentum_in_body(v);
-        libm::acos((way * momentum[axis] / momentum.length()).clamp(-1.0, 1.0))
+        let index = momentum.abs().max_position();
+        let axis = Self { index, way: momentum[index].signum(), tipped: TIPPED };
+        let leans = true_v.map(|v| axis.lean(body, v));
+        Self { tipped: TIPPED.max(FARTHER * leans.fold(0.0, f64::max)), ..axis }
+    }
+
+    fn lean(&self, body: &Tumble, v: &[f64]) -> f64 {
+        let momentum = body.momentum_in_body(v);
+        libm::acos((self.way * momentum[self.index] / momentum.length()).clamp(-1.0, 1.0))
+    }
+}
+
+/// A run before its first tick, beside its truth.
+struct Begun {
+    followed: FollowedRun,
+    start: Tumble,
+    axis: Axis,
+    series: Arc<TruthSeries>,
+}
+
+impl Begun {
+    /// Begins a run of the body of `truth` at this pace; `None` if the body does not turn in space.
+    async fn of(truth: &BodyTruth, pace: Pace, max_work: u64) -> Option<Self> {
+        let Pace { spec, tick_hz } = pace;
+        let series = truth.series(tick_hz).await;
+        let max_work = max_work.min(truth.meter.budget_left());
+        let followed = truth.follow(spec.solver(), spec.substeps, tick_hz).with_max_work(max_work);
+        let stepper = &followed.body.stepper;
+        let start = stepper.body().downcast_ref::<Tumble>()?.clone();
+        let n = stepper.q().len();
+        let within = 1..=ticks(truth.horizon_s, tick_hz);
+        let true_v = within.filter_map(|tick| Some(&series.at(tick)?[n..]));
+        let axis = Axis::of(&start, stepper.v(), true_v);
+        Some(Self { followed, start, axis, series })
+    }
+}
+
+/// The long run of a body.
+#[derive(Default)]
+pub(super) struct LongSpin {
+    /// Whether the body gains no energy of its own and does not tip over.
+    pub(super) is_bounded: bool,
+    pub(super) is_too_much: bool,
+    pub(super) evaluations: u64,
+    pub(super) seconds: f64,
+}
+
+/// Runs the body of `truth` at this pace over the long run, with its inputs.
+pub(super) async fn follow_long_spin(truth: &BodyTruth, pace: Pace, max_work: u64) -> LongSpin {
+    let mut long = LongSpin::default();
+    let Some(begun) = Begun::of(truth, pace, max_work).await else { return long };
+    let Begun { mut followed, start, axis, series } = begun;
+    let see = |body: &FollowedBody, tick: u64| {
+        (long.seconds, long.evaluations) = (pace.tick_hz.seconds(tick), body.stepper.evaluations());
+        let gains = body.energy() > (1.0 + VISIBLE) * body.base_j;
+        if gains || axis.lean(&start, body.stepper.v()) > axis.tipped {
+            return ControlFlow::Break(());
+        }
+        ControlFlow::Continue(())
     };
-    let leans = (1..=end).filter_map(|tick| Some(lean(&start, &series.at(tick)?[n..])));
-    let tipped = TIPPED.max(FARTHER * leans.fold(0.0, f64::max));
+    let end = ticks(LONG_RUN * truth.horizon_s, pace.tick_hz);
+    let stop = truth.run_until(&mut followed, end, see).await;
+    long.is_bounded = stop == StopReason::End;
+    long.is_too_much = series.is_too_much || stop == StopReason::TooMuchWork;
+    long
+}
+
+/// Runs the body of `truth` at this pace over the horizon, with its inputs.
+pub(super) async fn follow_spin(truth: &BodyTruth, pace: Pace, max_work: u64) -> SpinRun {
+    let mut run = SpinRun::default();
+    let Some(begun) = Begun::of(truth, pace, max_work).await else { return run };
+    let Begun { mut followed, axis, series, .. } = begun;
+    let (tick_hz, n) = (pace.tick_hz, followed.body.stepper.q().len());
+    let end = ticks(truth.horizon_s, tick_hz);
+    let (mut own, mut exact) = (Flips::default(), Flips::default());
     let (mut fastest, mut omega) = (0.0_f64, 0.0_f64);
     let found = &mut run.finding;
     found.energy = 1.0;
@@ -89,11 +153,11 @@ pub(super) async fn follow_spin(
         found.energy = if true_energy > 0.0 { energy / true_energy } else { 1.0 };
         let [l, true_l] = [(q, v), (true_q, true_v)].map(|(q, v)| body.momentum(q, v));
         found.momentum_turn = found.momentum_turn.max(Tumble::turn_between(l, true_l));
-        if found.tips_at_s.is_none() && lean(body, v) > tipped {
+        if found.tips_at_s.is_none() && axis.lean(body, v) > axis.tipped {
             found.tips_at_s = Some(t);
         }
-        own.add(t, spin[axis]);
-        exact.add(t, true_spin[axis]);
+        own.add(t, spin[axis.index]);
+        exact.add(t, true_spin[axis.index]);
         found.seconds = t;
         run.evaluations = stepper.evaluations();
         ControlFlow::Continue(())
@@ -115,7 +179,7 @@ pub(super) async fn follow_spin(
         // A body that flips in truth does not tip over.
         found.tips_at_s = None;
     }
-    run.is_too_much |= stop == StopReason::TooMuchWork;
+    run.is_too_much = series.is_too_much || stop == StopReason::TooMuchWork;
     run.failure = RunFailure::of(stop, followed.t());
     run
 }

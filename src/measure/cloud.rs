@@ -5,7 +5,7 @@
 //! or tears the area.
 
 use crate::sim::batch::{Batch, InstructionSet, OneCoordinate, Ticks};
-use crate::sim::bodies::Kind;
+use crate::sim::bodies::{Kind, Tumble};
 use crate::sim::integrators::Family;
 use crate::sim::number::significant;
 use crate::sim::{State, Stepper, TickRate};
@@ -35,6 +35,9 @@ use crate::sim::Fnv;
 /// Default number of points of a cloud.
 pub const USUAL_POINTS: usize = 100_000;
 
+/// Half-width of a cloud on the sphere of the directions of L, in radians.
+const USUAL_TURN: f64 = 0.05;
+
 /// The reason why there is no cloud.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum NoCloud {
@@ -51,6 +54,20 @@ pub enum NoCloud {
     Custom {
         /// Name of the body.
         body: String,
+    },
+    /// The direction of L of a body that turns in space is unknown, because the body is at rest.
+    #[error("{body} is at rest, so that its L has no direction")]
+    AtRest {
+        /// Name of the body.
+        body: String,
+    },
+    /// The shape does not fit on the sphere of the directions of L.
+    #[error("a reach of {reach} rad goes over a pole; give at most {most}")]
+    OverThePole {
+        /// Half-width in radians.
+        reach: f64,
+        /// Largest half-width, rounded down.
+        most: f64,
     },
     /// The points of all methods together do not fit into memory.
     #[error("{points} points do not fit into memory; give fewer")]
@@ -82,6 +99,8 @@ pub struct CloudStart {
     pub middle: [f64; 2],
     /// Half-width in the coordinate and in the velocity.
     pub reach: [f64; 2],
+    /// Whether the two are a [direction](Tumble::direction) of L, on a sphere.
+    pub is_on_sphere: bool,
 }
 
 impl CloudStart {
@@ -89,13 +108,30 @@ impl CloudStart {
     /// coordinate, by default a quarter of the swing. The half-width in velocity is `size` times the rate of the body's
     /// motion in this state.
     ///
+    /// The cloud of a body that turns in space is on the sphere of the [directions](Tumble::direction) of its L, and
+    /// `size` is an angle in radians.
+    ///
     /// # Errors
-    /// If the body has several coordinates.
+    /// If the body has several coordinates, or turns in space and has no L or not enough room around it.
     pub fn about(
         CloudBody { name, body, .. }: CloudBody<'_>,
         shape: CloudShape,
         size: Option<f64>,
     ) -> Result<Self, NoCloud> {
+        if let Some(tumble) = body.body().downcast_ref::<Tumble>() {
+            let middle = tumble.direction(body.v());
+            let across = (1.0 - middle[1] * middle[1]).sqrt();
+            if !across.is_finite() {
+                return Err(NoCloud::AtRest { body: name.into() });
+            }
+            let reach = size.unwrap_or(USUAL_TURN);
+            let most = ((1.0 - middle[1].abs()) / across).min(std::f64::consts::PI * across);
+            if reach > most {
+                return Err(NoCloud::OverThePole { reach, most: (100.0 * most).floor() / 100.0 });
+            }
+            let reach = [reach / across, reach * across];
+            return Ok(Self { shape, t: 0.0, middle, reach, is_on_sphere: true });
+        }
         let coordinates = body.q().len();
         if coordinates > 1 {
             return Err(NoCloud::SeveralCoordinates { body: name.into(), coordinates });
@@ -122,7 +158,7 @@ impl CloudStart {
         let swing = middle[0].abs().max(middle[1].abs() / rate);
         let usual = if swing > 0.0 { swing / 4.0 } else { 0.25 };
         let size = size.unwrap_or(usual);
-        Self { shape, t: 0.0, middle, reach: [size, size * rate] }
+        Self { shape, t: 0.0, middle, reach: [size, size * rate], is_on_sphere: false }
     }
 
     fn state(&self, [x, y]: [f64; 2]) -> State<f64> {
@@ -460,20 +496,32 @@ impl Cloud {
         self.q().iter().zip(self.v()).map(|(&q, &v)| [q, v]).filter(is_there)
     }
 
-    /// Returns the RMS distance of the points from their middle, in units of the half-width; `None` if there are no
-    /// points.
+    /// Returns the RMS distance of the points from their middle, in units of the half-width, or straight through the
+    /// sphere; `None` if there are no points.
     fn distance(&self) -> Option<f64> {
-        let reach = self.start.reach;
-        let states = || self.present().map(|state| [state[0] / reach[0], state[1] / reach[1]]);
-        let count = states().count() as f64;
-        let sum = states().fold([0.0; 2], |sum, state| [sum[0] + state[0], sum[1] + state[1]]);
-        let middle = sum.map(|sum| sum / count);
-        let square = |state: [f64; 2]| {
-            let [x, y] = [state[0] - middle[0], state[1] - middle[1]];
-            x * x + y * y
+        let CloudStart { reach, is_on_sphere, .. } = self.start;
+        let places = || {
+            self.present().map(move |[q, v]| match is_on_sphere {
+                true => on_sphere([q, v]),
+                false => [q / reach[0], v / reach[1], 0.0],
+            })
         };
-        (count > 0.0).then(|| (states().map(square).sum::<f64>() / count).sqrt())
+        let count = places().count() as f64;
+        let add = |sum: [f64; 3], place: [f64; 3]| [0, 1, 2].map(|i| sum[i] + place[i]);
+        let middle = places().fold([0.0; 3], add).map(|sum| sum / count);
+        let square = |place: [f64; 3]| {
+            let [x, y, z] = [0, 1, 2].map(|i| place[i] - middle[i]);
+            x * x + y * y + z * z
+        };
+        (count > 0.0).then(|| (places().map(square).sum::<f64>() / count).sqrt())
     }
+}
+
+/// Returns the place on a sphere of radius 1 of an angle in radians about an axis and the part along it.
+fn on_sphere([angle, part]: [f64; 2]) -> [f64; 3] {
+    let across = (1.0 - part * part).max(0.0).sqrt();
+    let (sin, cos) = libm::sincos(angle);
+    [across * cos, across * sin, part]
 }
 
 /// Describes the percentage of points beyond the axes in words; `None` if it is small.

@@ -17,7 +17,7 @@ mod series;
 mod swing;
 mod walk;
 
-pub(super) use followed_body::{FollowedBody, ticks, work_of};
+pub(super) use followed_body::{FollowedBody, FollowedRun, ticks, work_of};
 pub(super) use reach::Reach;
 use reach::{ReachSoFar, amplitudes};
 pub(super) use series::TruthSeries;

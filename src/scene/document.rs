@@ -279,7 +279,7 @@ fn read_lanes(
     check_impact(top, bodies);
     let is_listed = listed.is_some();
     let listed = listed.into_iter().flatten();
-    let plain = |method| LaneSpec { impact, ..LaneSpec::plain(method) };
+    let plain = |method| LaneSpec::plain(method).with_impact(impact);
     let mut lanes: Vec<_> = listed.map(|(span, method)| (span, plain(method))).collect();
 
     let rows = top.rows(LANE);
@@ -311,10 +311,21 @@ fn read_lanes(
             top.report_fault(span.clone(), what, remedy);
         }
     }
-    if is_given {
-        return lanes.into_iter().map(|(_, lane)| lane).collect();
+    let lanes: Vec<_> = match is_given {
+        true => lanes.into_iter().map(|(_, lane)| lane).collect(),
+        false => {
+            every_lane(bodies, top.own()).into_iter().map(|lane| lane.with_impact(impact)).collect()
+        }
+    };
+    let mut refusals = lanes.iter().map(|lane| impact.refusal(lane.method));
+    if top.has(IMPACT.key)
+        && let Some(Some(refusal)) = refusals.next()
+        && refusals.all(|refusal| refusal.is_some())
+    {
+        let remedy = format!("remove `{}`", IMPACT.key);
+        top.report_fault(top.span(IMPACT.key), refusal, remedy);
     }
-    every_lane(bodies, top.own()).into_iter().map(|lane| LaneSpec { impact, ..lane }).collect()
+    lanes
 }
 
 /// Reports a rule for impacts in a scene where nothing has walls.
@@ -328,10 +339,10 @@ fn check_impact(table: &mut Table<'_>, bodies: &[BodyDraft]) {
 
 /// Describes a lane in the words of a message.
 fn described(lane: &LaneSpec) -> String {
-    let LaneSpec { method, substeps, tolerance, joint, impact } = lane;
+    let LaneSpec { method, substeps, tolerance, joint, .. } = lane;
     let within = tolerance.map(|tolerance| format!(" and `tolerance = {tolerance:e}`"));
     let told = joint.map(|joint| format!(" and `joint_hz = {}`", joint.frequency_hz));
-    let bounces = (!impact.is_default()).then(|| format!(" and `impact = {impact:?}`"));
+    let bounces = lane.own_impact().map(|impact| format!(" and `impact = {impact:?}`"));
     let beside = [within, told, bounces].into_iter().flatten().collect::<String>();
     format!("{:?} with `substeps = {substeps}`{beside}", method.id)
 }

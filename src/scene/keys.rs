@@ -159,21 +159,27 @@ pub(super) static SPEC: [Key<SpecDraft, LaneSpec>; 6] = [
     Key {
         field: IMPACT,
         read: |spec, row, field| spec.impact = row.impact(field).or(spec.impact),
-        write: |spec| (!spec.impact.is_default()).then(|| quoted(spec.impact.id)),
+        write: |spec| Some(quoted(spec.own_impact()?.id)),
     },
 ];
 
-/// Reads a lane, whose rule for impacts is `impact` by default. Reports settings that the lane's method does not take.
+/// Reads a lane, whose rule for impacts is `impact` by default if its method can have it. Reports settings that the
+/// lane's method does not take.
 pub(super) fn read_lane_spec(row: &mut Table<'_>, impact: &'static Impact) -> Option<LaneSpec> {
-    let mut draft = SpecDraft { impact: Some(impact), ..SpecDraft::default() };
+    let mut draft = SpecDraft::default();
     Key::read_all(&SPEC, &mut draft, row);
     check_joint(row, draft.method);
-    let SpecDraft { method, substeps, tolerance, joint_hz, joint_damping_ratio, impact } = draft;
+    let SpecDraft { method, substeps, tolerance, joint_hz, joint_damping_ratio, impact: own } =
+        draft;
     let method = method?;
+    if let Some(refusal) = own.and_then(|own| own.refusal(method)) {
+        row.report_fault(row.span(IMPACT.key), refusal, format!("remove `{}`", IMPACT.key));
+    }
     let substeps = substeps.unwrap_or(method.default_substeps);
     let damping_ratio = joint_damping_ratio.unwrap_or(0.0);
     let joint = joint_hz.map(|frequency_hz| Swing { frequency_hz, damping_ratio });
-    Some(LaneSpec { method, substeps, tolerance, joint, impact: impact.unwrap_or_default() })
+    let plain = LaneSpec { substeps, tolerance, joint, ..LaneSpec::plain(method) };
+    Some(plain.with_impact(own.unwrap_or(impact)))
 }
 
 /// Reports a joint for a method that takes none, and a damping ratio without a frequency.

@@ -76,8 +76,19 @@ impl Swing {
 impl LaneSpec {
     /// Creates a lane under a method with the tolerance and the substeps of the method's card.
     pub fn plain(method: &'static Method) -> Self {
-        let (substeps, impact) = (method.default_substeps, Default::default());
+        let (substeps, impact) = (method.default_substeps, Impact::of(method));
         Self { method, substeps, tolerance: None, joint: None, impact }
+    }
+
+    /// Returns the lane with this rule for impacts, unless it does not [fit](Impact::fits) the method.
+    #[must_use]
+    pub fn with_impact(self, impact: &'static Impact) -> Self {
+        if impact.fits(self.method) { Self { impact, ..self } } else { self }
+    }
+
+    /// Returns the rule for impacts, if it is another than a lane of this method has by itself.
+    pub fn own_impact(&self) -> Option<&'static Impact> {
+        Some(self.impact).filter(|impact| *impact != Impact::of(self.method))
     }
 
     /// Returns the method's `name`, followed by each setting in which another of `lanes` with this method differs.
@@ -91,9 +102,12 @@ impl LaneSpec {
         format!("{name}{times}{within}{}{}", self.joint_suffix(lanes), self.impact_suffix(lanes))
     }
 
-    /// Returns the rule for impacts as a suffix, if one of `lanes` has another rule.
+    /// Returns the rule for impacts as a suffix, if one of `lanes` has another rule. One that a method has by itself
+    /// goes without saying.
     fn impact_suffix(&self, lanes: &[LaneSpec]) -> String {
-        let is_told = lanes.iter().any(|lane| lane.impact != self.impact);
+        let has_choice = |lane: &LaneSpec| <&Impact>::default().fits(lane.method);
+        let mut others = lanes.iter().filter(|lane| has_choice(lane));
+        let is_told = has_choice(self) && others.any(|lane| lane.impact != self.impact);
         if is_told { format!(", {}", self.impact.id) } else { String::new() }
     }
 
@@ -121,7 +135,9 @@ impl LaneSpec {
         let joint = self.joint.map(|joint| Override::Joint(joint.per_mass()));
         let setting = joint.or(self.tolerance.map(Override::tolerance));
         match setting {
-            _ if !self.impact.is_default() => Solver::Bouncing(self.method, setting, self.impact),
+            _ if let Some(impact) = self.own_impact() => {
+                Solver::Bouncing(self.method, setting, impact)
+            }
             Some(setting) => Solver::With(self.method, setting),
             None => Solver::Method(self.method),
         }

@@ -59,10 +59,12 @@ impl Scene {
 
     /// Returns a plain lane of a method, with the rule for impacts that all lanes of the scene have, if it is one.
     pub fn plain_lane(&self, method: &'static Method) -> LaneSpec {
-        let mut rules = self.lanes.iter().map(|lane| lane.impact);
-        let first = rules.next().unwrap_or_default();
-        let impact = if rules.all(|other| other == first) { first } else { Default::default() };
-        LaneSpec { impact, ..LaneSpec::plain(method) }
+        let plain = LaneSpec::plain(method);
+        let mut rules = self.lanes.iter().map(|lane| lane.impact).filter(|it| it.fits(method));
+        match rules.next() {
+            Some(first) if rules.all(|other| other == first) => plain.with_impact(first),
+            _ => plain,
+        }
     }
 
     /// Returns the scene with a lane for each of its own lanes, or of `methods` if there are any, under each of these

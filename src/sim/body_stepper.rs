@@ -81,7 +81,7 @@ impl<B: Body> Construct<Counted<B>> for BodyAtState<B> {
         }
         let method = MethodPropagator(integrator);
         if const { B::HAS_WALLS } {
-            let propagator = Bouncer::new(method, self.solver.impact(), self.bounces, &self.state);
+            let propagator = Bouncer::new(method, self.solver, self.bounces, &self.state);
             return Box::new(BodyStepper { placed: self, propagator });
         }
         Box::new(BodyStepper { placed: self, propagator: method })

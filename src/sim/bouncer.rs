@@ -1,11 +1,12 @@
 //! The steps of a body that meets walls: a method, and the rule for impacts after or within its steps.
 
 use super::body::Body;
-use super::impact::{Bounces, Impact, Locating, Rule, Turn, Wall};
-use super::integrators::{Problem, StepFailure, Stepped};
+use super::impact::{Bounces, Locating, Rule, Turn, Wall};
+use super::integrators::{EngineBounce, Method, Problem, StepFailure, Stepped};
+use super::near_wall::NearWall;
 use super::propagator::Propagator;
 use super::state::{State, Vector};
-use super::stepper::Change;
+use super::stepper::{Change, Solver};
 use super::system::{Counted, StateOf, System};
 
 /// The largest number of impacts within a step. A body that falls back on its wall so often in a step rests.
@@ -24,6 +25,9 @@ pub(super) struct Bouncer<P, V> {
     /// Makes trial steps, so that the memory of `inner` stays.
     probe: P,
     rule: Rule,
+    /// The rule of an engine, with its impulses of the last tick and whether the wall pushed in it.
+    engine: Option<EngineBounce>,
+    kept: ([f64; 2], bool),
     bounces: Bounces,
     /// The length of the last tick in seconds.
     last_h: f64,
@@ -81,10 +85,45 @@ impl Contact {
 }
 
 impl<P: Clone, V: Vector> Bouncer<P, V> {
-    pub(super) fn new(inner: P, impact: &Impact, bounces: Bounces, like: &State<V>) -> Self {
+    /// Creates a body's steps by `inner`, which is the method of `solver`.
+    pub(super) fn new(inner: P, solver: Solver, bounces: Bounces, like: &State<V>) -> Self {
         let probe = inner.clone();
         let (from, trial) = (like.clone(), like.clone());
-        Self { inner, probe, rule: impact.rule, bounces, last_h: 0.0, from, trial }
+        let (rule, engine) = (solver.impact().rule, solver.method().and_then(Method::bounce));
+        let kept = Default::default();
+        Self { inner, probe, rule, engine, kept, bounces, last_h: 0.0, from, trial }
+    }
+
+    /// Makes one tick of `n` substeps by an engine's rule for the wall that is nearer.
+    fn engine_tick<B: Body<Vector = V>>(
+        &mut self,
+        engine: EngineBounce,
+        body: &Counted<B>,
+        ([t, h], n): ([f64; 2], u32),
+        y: &mut State<V>,
+    ) {
+        let nearer = |a: &Contact, b: &Contact| a.height(y).total_cmp(&b.height(y));
+        let Some(contact) = Contact::all(&body.system, t).min_by(nearer) else { return };
+        let (kept, touches) = self.kept;
+        let mut ball = NearWall {
+            height: contact.height(y),
+            speed: contact.speed(y),
+            push: contact.push(body, t, y),
+            restitution: contact.wall.restitution,
+            kept,
+            touches,
+        };
+        let before = ball;
+        ball.tick(engine, h, n);
+        self.kept = (ball.kept, ball.touches);
+        contact.set_height(ball.height, y);
+        contact.set_speed(ball.speed, y);
+        if ball.touches && !touches && before.speed < 0.0 {
+            // An engine may turn the ball above the wall, where it expects an impact within the tick.
+            let part = (before.height / (-h * before.speed)).clamp(0.0, 1.0);
+            self.bounces.land(t + h * part, [before.speed, ball.speed]);
+            self.bounces.beyond = before.height.abs();
+        }
     }
 
     /// Makes one step of the method, with its impacts.
@@ -114,6 +153,10 @@ impl<P: Clone, V: Vector> Bouncer<P, V> {
         }
         self.from.assign(y);
         self.inner.step(body, t, h, 1, y)?;
+        if self.rule == Rule::OwnLines {
+            self.notice(body, [t, h], y);
+            return Ok(());
+        }
         let Some(contact) = Contact::beyond(&body.system, t + h, y) else { return Ok(()) };
         match self.rule {
             Rule::Within(locating) => return self.locate(locating, body, [t, h], y),
@@ -144,9 +187,19 @@ impl<P: Clone, V: Vector> Bouncer<P, V> {
             Rule::Penalty if contact.height(&self.from) >= 0.0 => {
                 self.bounces.land(t + h, [contact.speed(y), f64::NAN]);
             }
-            Rule::BeforeTick | Rule::Penalty => {}
+            Rule::BeforeTick | Rule::Penalty | Rule::Engine | Rule::OwnLines => {}
         }
         Ok(())
+    }
+
+    /// Records an impact if the method itself has turned the body in the step from `self.from` to `y`.
+    fn notice<B: Body<Vector = V>>(&mut self, body: &Counted<B>, [t, h]: [f64; 2], y: &State<V>) {
+        let is_turned = |it: &Contact| it.speed(&self.from) < 0.0 && it.speed(y) >= 0.0;
+        if let Some(contact) = Contact::all(&body.system, t + h).find(is_turned) {
+            let before = contact.speed(&self.from);
+            self.bounces.land(t + h, [before, contact.speed(y)]);
+            self.bounces.beyond = (contact.height(&self.from) + h * before).abs();
+        }
     }
 
     /// Records an impact at time `t` (s), after which the method starts afresh.
@@ -343,8 +396,9 @@ where
         }
         self.last_h = h;
         let part = h / f64::from(n);
-        for i in 0..n {
-            self.part(body, t + part * f64::from(i), part, y)?;
+        match self.engine {
+            Some(engine) => self.engine_tick(engine, body, ([t, h], n), y),
+            None => (0..n).try_for_each(|i| self.part(body, t + part * f64::from(i), part, y))?,
         }
         if let Some(contact) = Contact::all(&body.system, t + h).next() {
             self.bounces.add(contact.height(y));
@@ -356,6 +410,7 @@ where
         let is_changed = self.inner.jump(t, change, body, state);
         if is_changed {
             self.bounces.restart();
+            self.kept = Default::default();
         }
         is_changed
     }

@@ -28,11 +28,6 @@ pub struct Impact {
 }
 
 impl Impact {
-    /// Whether the rule is the one that a lane has unless it says otherwise.
-    pub fn is_default(&self) -> bool {
-        self == <&Self>::default()
-    }
-
     /// Whether the rule makes a spring of the wall.
     pub(super) fn is_soft(&self) -> bool {
         self.rule == Rule::Penalty
@@ -69,6 +64,10 @@ pub(super) enum Rule {
     BeforeTick,
     /// The wall is a spring.
     Penalty,
+    /// The whole tick is the engine's.
+    Engine,
+    /// The lines of the method turn the body.
+    OwnLines,
 }
 
 /// How an impact within a step is found.
@@ -137,6 +136,10 @@ pub static IMPACTS: &[Impact] = impacts! {
         "the straight line gives the time of impact, the end of the step the speed; the method steps the rest";
     "penalty" None, Rule::Penalty,
         "no impact: a damped spring of 4.77 Hz pushes out of the floor";
+    "none" None, Rule::OwnLines,
+        "the lines of the method turn the ball themselves; for methods of your own with such a line, and no others";
+    "engine" None, Rule::Engine,
+        "the engine's own rule, with its slop and threshold; for lanes of Chipmunk, Jolt, Box2D, Rapier, pybullet and MuJoCo";
 };
 
 /// Returns the rule with this id.

@@ -28,9 +28,11 @@ mod exact_flow;
 mod exact_since_start;
 mod fnv;
 mod impact;
+mod impact_of_method;
 pub mod integrators;
 #[cfg(feature = "lab")]
 pub mod law;
+mod near_wall;
 #[cfg(feature = "lab")]
 mod net_plan;
 pub mod number;

@@ -3,8 +3,10 @@
 use std::sync::{Mutex, PoisonError};
 
 use super::conformance;
-use super::integrators::{Family, METHODS, Method, Needs, Only};
+use super::integrators::{Family, METHODS, Method, Needs, Only, integrator};
 use super::law::{ExpressionFault, Input, LinearRule, OwnLines, Remedy, RuleBody, StepText};
+use super::state::State;
+use super::system::System;
 use super::tick_rate::TickRate;
 
 /// The maximum number of characters in the id of an own method.
@@ -48,9 +50,34 @@ pub fn own_method(id: &str, text: &str) -> Result<&'static Method, ExpressionFau
         // The problems of the measurements have no target and no joint.
         Ok(match only {
             Some(_) => made,
-            None => conformance::measured(Box::leak(Box::new(made))),
+            None => {
+                let measured = conformance::measured(Box::leak(Box::new(made)));
+                Method { has_own_floor: has_floor(&measured), ..measured }
+            }
         })
     })
+}
+
+/// Whether a fall through 0 by this method ends otherwise than the same fall far above it.
+fn has_floor(method: &Method) -> bool {
+    /// A fall that is exact in binary numbers.
+    struct Fall;
+    impl System for Fall {
+        type Vector = f64;
+
+        fn acceleration(&self, _t: f64, _q: &f64, _v: &f64, a: &mut f64) {
+            *a = -8.0;
+        }
+    }
+    let falls = |from: f64| {
+        let mut state = State { q: from, v: 0.0 };
+        let mut integrator = integrator(method, &state.q);
+        let stepped = (0..64)
+            .try_for_each(|n| integrator.step(&Fall, f64::from(n) / 64.0, 1.0 / 64.0, &mut state));
+        stepped.is_ok().then_some(state.v)
+    };
+    let ends = [1.0, 1024.0].map(falls);
+    ends[0].zip(ends[1]).is_some_and(|(near, far)| (near - far).abs() > 1.0)
 }
 
 /// Returns the bodies that a method with these lines steps; `None` if it steps every body.

@@ -47,7 +47,10 @@ impl Solver {
 
     /// Returns the rule for impacts.
     pub fn impact(self) -> &'static Impact {
-        if let Solver::Bouncing(.., impact) = self { impact } else { Default::default() }
+        match self {
+            Solver::Bouncing(method, _, impact) if impact.fits(method) => impact,
+            _ => self.method().map(Impact::of).unwrap_or_default(),
+        }
     }
 }
 

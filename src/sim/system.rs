@@ -207,6 +207,9 @@ pub enum BodyClass {
     Joint,
     /// Moves by a force that an engine cannot express. The reason is a clause in lower case that follows a colon.
     NoEngine(&'static str),
+    /// Meets walls, which an engine handles by a rule of its own. The reason why other engines step no such body is a
+    /// clause in lower case that follows a colon.
+    Ball(&'static str),
     /// Turns freely in space, which an engine steps by a map of its own.
     Spin,
     /// Follows a target by a rule. The reason why an engine cannot express the rule is a clause in lower case that
@@ -218,7 +221,7 @@ impl BodyClass {
     /// Returns the reason why a physics engine cannot express the body; `None` if it can.
     pub const fn engine_refusal(self) -> Option<&'static str> {
         match self {
-            Self::Forced | Self::Joint | Self::Spin => None,
+            Self::Forced | Self::Joint | Self::Spin | Self::Ball(_) => None,
             Self::NoEngine(why) | Self::Follower(why) => Some(why),
         }
     }

@@ -369,6 +369,8 @@ impl BodyCell<'_> {
         flags(picture, &flagged, lift, palette, (room, camera.rect, name));
         if Look::of(truth).has_ground() && truth.halted().is_none() {
             apex::draw(picture, camera, (moment, !lost.is_empty()), self.front, index);
+            let lanes = (self.lanes, self.front);
+            apex::strip(picture, camera, (moment, framing), lanes, index);
         }
         if shows_ghost && self.is_wide() && index == 0 {
             let bead = ghost.outline.marks.iter().find_map(|mark| match mark {

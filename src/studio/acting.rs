@@ -120,8 +120,13 @@ pub(super) fn next_impact(deck: &mut Deck, viewer: &mut Viewer) {
         return viewer.set_notice("J changes how a ball bounces: open the scene ball");
     }
     let Entrant { id: lane, spec, .. } = *deck.selected();
-    let next = 1 + IMPACTS.iter().take_while(|&impact| impact != spec.impact).count();
-    let impact = &IMPACTS[next % IMPACTS.len()];
+    let mut around = IMPACTS.iter().cycle().skip_while(|&it| it != spec.impact).skip(1);
+    let Some(impact) = around.find(|it| it.fits(spec.method)).filter(|it| *it != spec.impact)
+    else {
+        let name = spec.method.name;
+        return viewer
+            .set_notice(format!("{name} has a rule of its own for bounces, and no other"));
+    };
     act(deck, viewer, Action::Lane { lane, spec: LaneSpec { impact, ..spec } });
     viewer.set_notice(format!("{}: {}", impact.id, impact.about));
 }

@@ -173,6 +173,15 @@ pub(super) fn rule_code(
 /// # Errors
 /// The reason why the language cannot express the rule, as a clause.
 pub fn impact_code(impact: &Impact, language: Language) -> Result<String, String> {
+    impact_code_for(impact, language, [0.8, 9.81])
+}
+
+/// Returns a rule as [`impact_code`] does, for this restitution and gravity (m/s²).
+pub fn impact_code_for(
+    impact: &Impact,
+    language: Language,
+    [e, g]: [f64; 2],
+) -> Result<String, String> {
     let effect = impact.kappa.map(|kappa| {
         format!(
             "Under gravity g an impact adds (s + {kappa}) g h to the speed, s = -1 with semi-implicit Euler, 0 with \
@@ -180,7 +189,9 @@ pub fn impact_code(impact: &Impact, language: Language) -> Result<String, String
         )
     });
     let about = std::iter::once(format!("{}: {}.", impact.id, impact.about)).chain(effect);
-    rule_code(impact.code, &about.collect::<Vec<_>>(), language)
+    let code = impact.code.replace("let e = 0.8", &format!("let e = {e:?}"));
+    let code = code.replace("let g = 9.81", &format!("let g = {g:?}"));
+    rule_code(&code, &about.collect::<Vec<_>>(), language)
 }
 
 /// Returns a game loop in a language, below a comment from the claims of its lines. It is the type `GameLoop`, whose

@@ -6,7 +6,7 @@ use regatta::run::{Lane, METRICS, Race};
 use regatta::scene::{LaneSpec, Scene};
 use regatta::sim::bodies::{Ball, Body, kind};
 use regatta::sim::integrators::{METHODS, method};
-use regatta::sim::{Bounces, IMPACTS, Solver, State, impact, stepper};
+use regatta::sim::{Bounces, IMPACTS, Solver, State, impact, own_method, stepper};
 use regatta::studio::{RunCommand, StageCommand, Studio};
 
 const G: f64 = 9.81;
@@ -246,6 +246,7 @@ fn scene(lanes: &str) -> Scene {
 fn lanes_of_a_ball_have_the_same_bits_alone_and_by_ticks() {
     let all: String = IMPACTS
         .iter()
+        .filter(|impact| impact.fits(method("rk4").unwrap()))
         .map(|impact| format!("[[lane]]\nmethod = 'rk4'\nimpact = '{}'\n", impact.id))
         .collect();
     let scene = scene(&all);
@@ -297,7 +298,6 @@ fn faults_of_a_ball_and_its_rules_are_told() {
         ("impact = 'clamp'", "[[spring]]\nmass_kg = 1\nstiffness_n_per_m = 1", "meets a wall"),
         ("", "[[ball]]\nheight_m = 1\ngravity_m_per_s2 = 0", "never comes back"),
         ("", "[[ball]]\nheight_m = 1\nceiling_m = 3", "without gravity only"),
-        ("methods = ['engine-jolt']", ball, "a rule of its own"),
     ] {
         let found = fault(lanes, ball);
         assert!(found.contains(wanted), "{wanted} in\n{found}");
@@ -494,4 +494,47 @@ fn a_rule_after_the_step_makes_every_method_one_of_order_1() {
     ] {
         near(order(id, rule), wanted, within, &format!("{id}, {rule}"));
     }
+}
+
+#[test]
+fn a_rule_has_the_order_that_its_card_says() {
+    for id in ["explicit-euler", "semi-implicit-euler", "velocity-verlet", "rk4"] {
+        for rule in IMPACTS {
+            let Some(wanted) = rule.order(method(id).unwrap()) else { continue };
+            near(order(id, rule.id), f64::from(wanted), 0.3, &format!("{id}, {}", rule.id));
+        }
+    }
+}
+
+#[test]
+fn lines_with_a_floor_of_their_own_are_their_own_rule() {
+    let lines = "v += a(x, v) * h; x += v * h; if x < 0 { x = 0; v = -0.8 * v }";
+    let own = own_method("mine", lines).unwrap();
+    assert!(
+        own.has_own_floor
+            && !own_method("plain", "v += a(x, v) * h; x += v * h").unwrap().has_own_floor
+    );
+    assert_eq!(LaneSpec::plain(own).impact.id, "none");
+    // The same motion as the rule beside the method, and the same bounces.
+    let same = |solver: Solver| {
+        let mut lane = stepper(ball([1.0, 0.1], 0.8), solver);
+        let at = |tick: u64| lane.advance(tick as f64 * H, H, 1).unwrap();
+        (0..120).for_each(at);
+        let bounces = *lane.bounces().unwrap();
+        (lane.q()[0].to_bits(), lane.v()[0].to_bits(), bounces.impacts, bounces.apex)
+    };
+    assert_eq!(same(Solver::Method(own)), same(under("semi-implicit-euler", "clamp")));
+    let perpetual = Scene::built_in("perpetual").unwrap();
+    let lines = "v += a(x, v) * h; x += v * h; if x < 0 { x = 0; v = -v }";
+    let own = own_method("elastic", lines).unwrap();
+    let found = Judge::new(&perpetual).verdict(LaneSpec::plain(own), perpetual.tick_hz).to_string();
+    assert!(found.starts_with("dies away · bounces") && found.contains("too low"), "{found}");
+    let refused = scene_fault("[[lane]]\nmethod = 'rk4'\nimpact = 'none'");
+    assert!(refused.contains("is not for rk4"), "{refused}");
+}
+
+fn scene_fault(lanes: &str) -> String {
+    let head = "title = 'x'\ntick_hz = 60\nseconds = 5";
+    let text = format!("{head}\n{lanes}\n[[ball]]\nheight_m = 1\n");
+    Scene::parse("x.toml", &text).unwrap_err().to_string()
 }

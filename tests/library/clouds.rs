@@ -13,7 +13,7 @@ use regatta::measure::cloud::{
 };
 use regatta::prelude::Options;
 use regatta::scene::{Action, LaneSpec, Scene, Scripted};
-use regatta::sim::bodies::Kind;
+use regatta::sim::bodies::{Kind, Tumble};
 use regatta::sim::integrators::method;
 use regatta::sim::{Solver, State, Stepper, System};
 use regatta::studio::{
@@ -62,6 +62,70 @@ fn area_grows_by_the_determinant_and_a_symplectic_method_keeps_it() {
     kept.advance(600);
     assert!((kept.measure().area_ratio.unwrap() - 1.0).abs() < 1e-9);
     assert_eq!(kept.in_words(kept.area_ratio(), []), "keeps area");
+}
+
+#[test]
+fn steps_that_keep_the_brackets_of_l_keep_areas_of_its_sphere() {
+    for scene in ["coin", "t-handle", "phone"] {
+        for id in ["split-3", "split-5", "gyro-off"] {
+            let mut kept = cloud(scene, id, CloudShape::Disc, 200, 60);
+            kept.advance(240);
+            let ratio = kept.measure().area_ratio.unwrap();
+            assert!((ratio - 1.0).abs() < 1e-6, "{id} on {scene}: {ratio}");
+        }
+        let mut changed = cloud(scene, "linearly-implicit-euler", CloudShape::Disc, 200, 60);
+        changed.advance(240);
+        let ratio = changed.measure().area_ratio;
+        assert!(ratio.is_none_or(|ratio| (ratio - 1.0).abs() > 0.5), "{scene}: {ratio:?}");
+    }
+}
+
+#[test]
+fn a_cloud_of_spins_fits_its_sphere_or_is_refused() {
+    let of_t_handle = body("t-handle");
+    let start = |reach| CloudStart::about(of_t_handle.of(), CloudShape::Disc, Some(reach));
+    let Err(NoCloud::OverThePole { most, .. }) = start(4.0) else { panic!("it has room") };
+    assert!((0.3..1.6).contains(&most) && start(most).is_ok() && start(most + 0.01).is_err());
+    let mut wide = cloud("t-handle", "split-3", CloudShape::Disc, 500, 60);
+    wide.advance(1200);
+    // All around the sphere: the points are 1 from its middle, and began half of 0.05 √2 from theirs.
+    let spread = wide.measure().spread.unwrap();
+    assert!((5.0..1.001 / (0.05 / 2.0_f64.sqrt())).contains(&spread), "{spread}");
+    let text =
+        Scene::built_in("coin").unwrap().to_toml().replace("[2.0, 0.0, 30.0]", "[0.0, 0.0, 0.0]");
+    let at_rest = built(&Scene::parse("coin", &text).unwrap());
+    let found = CloudStart::about(at_rest.of(), CloudShape::Disc, None);
+    assert!(matches!(found, Err(NoCloud::AtRest { .. })), "{found:?}");
+}
+
+#[test]
+fn a_copy_of_a_spin_moves_as_the_body_with_that_spin() {
+    let body = body("phone");
+    let tumble: &Tumble = body.1.body().downcast_ref().unwrap();
+    let start = CloudStart::about(body.of(), CloudShape::Disc, Some(0.3)).unwrap();
+    let spec = LaneSpec::plain(method("gyro-newton").unwrap());
+    let mut cloud = Cloud::new(body.of(), &spec, start, 3, 60).unwrap();
+    let [angle, part] = [cloud.q()[2], cloud.v()[2]];
+    let mut alone =
+        (body.0.build)(&Scene::built_in("phone").unwrap().bodies[0].values, spec.solver());
+    let momentum = tumble.momentum_in_body(alone.v());
+    // The polar axis is the one that the direction of the middle has its part along.
+    let axis = (0..3).find(|&n| momentum[n] / momentum.length() == start.middle[1]).unwrap();
+    let across = (1.0 - part * part).sqrt();
+    let mut omega = [0.0; 3];
+    for (n, of) in
+        [(axis, part), (axis + 1, across * libm::cos(angle)), (axis + 2, across * libm::sin(angle))]
+    {
+        omega[n % 3] = of * momentum.length() / tumble.moments[n % 3];
+    }
+    let (q, mut v) = (alone.q().to_vec(), alone.v().to_vec());
+    v[..3].copy_from_slice(&omega);
+    alone.set(0.0, &q, &v);
+    (0..120_u32).for_each(|tick| alone.advance(f64::from(tick) / 60.0, 1.0 / 60.0, 1).unwrap());
+    cloud.advance(120);
+    let [angle, part] = tumble.direction(alone.v());
+    assert!((cloud.v()[2] - part).abs() < 1e-9, "{} and {part}", cloud.v()[2]);
+    assert!(libm::sin((cloud.q()[2] - angle) / 2.0).abs() < 1e-9, "{} and {angle}", cloud.q()[2]);
 }
 
 #[test]

@@ -62,7 +62,7 @@ fn scene(dice: &mut Dice, n: usize) -> Scene {
     while lanes.len() < 1 + n % 3 {
         let mut spec = dice.spec();
         if first == "ball" {
-            spec.impact = &IMPACTS[dice.below(IMPACTS.len())];
+            spec = spec.with_impact(&IMPACTS[dice.below(IMPACTS.len())]);
         }
         if !lanes.contains(&spec) {
             lanes.push(spec);

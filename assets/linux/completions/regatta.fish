@@ -50,6 +50,7 @@ lift\t''
 jump\t''
 ball\t''
 perpetual\t''
+drop\t''
 pong\t''
 landing\t''
 coin\t''
@@ -144,7 +145,9 @@ locate-cubic\t''
 locate-chord\t''
 swept\t''
 swept-step\t''
-penalty\t''"
+penalty\t''
+none\t''
+engine\t''"
 complete -c regatta -n "__fish_regatta_needs_command" -l tick-hz -d 'Ticks per second [default: the scene\'s]' -r
 complete -c regatta -n "__fish_regatta_needs_command" -l step -d 'The length of a tick, in place of --tick-hz' -r
 complete -c regatta -n "__fish_regatta_needs_command" -l loop -d 'Open the loop lab on a trace [default: edge]' -r
@@ -206,6 +209,7 @@ lift\t''
 jump\t''
 ball\t''
 perpetual\t''
+drop\t''
 pong\t''
 landing\t''
 coin\t''
@@ -300,7 +304,9 @@ locate-cubic\t''
 locate-chord\t''
 swept\t''
 swept-step\t''
-penalty\t''"
+penalty\t''
+none\t''
+engine\t''"
 complete -c regatta -n "__fish_regatta_using_subcommand play" -l tick-hz -d 'Ticks per second [default: the scene\'s]' -r
 complete -c regatta -n "__fish_regatta_using_subcommand play" -l step -d 'The length of a tick, in place of --tick-hz' -r
 complete -c regatta -n "__fish_regatta_using_subcommand play" -l loop -d 'Open the loop lab on a trace [default: edge]' -r
@@ -341,6 +347,7 @@ lift\t''
 jump\t''
 ball\t''
 perpetual\t''
+drop\t''
 pong\t''
 landing\t''
 coin\t''
@@ -435,7 +442,9 @@ locate-cubic\t''
 locate-chord\t''
 swept\t''
 swept-step\t''
-penalty\t''"
+penalty\t''
+none\t''
+engine\t''"
 complete -c regatta -n "__fish_regatta_using_subcommand capture" -l tick-hz -d 'Ticks per second [default: the scene\'s]' -r
 complete -c regatta -n "__fish_regatta_using_subcommand capture" -l step -d 'The length of a tick, in place of --tick-hz' -r
 complete -c regatta -n "__fish_regatta_using_subcommand capture" -l loop -d 'Show the loop lab over a trace [default: edge]' -r
@@ -509,6 +518,7 @@ lift\t''
 jump\t''
 ball\t''
 perpetual\t''
+drop\t''
 pong\t''
 landing\t''
 coin\t''
@@ -603,7 +613,9 @@ locate-cubic\t''
 locate-chord\t''
 swept\t''
 swept-step\t''
-penalty\t''"
+penalty\t''
+none\t''
+engine\t''"
 complete -c regatta -n "__fish_regatta_using_subcommand trace" -l tick-hz -d 'Ticks per second [default: the scene\'s]' -r
 complete -c regatta -n "__fish_regatta_using_subcommand trace" -l step -d 'The length of a tick, in place of --tick-hz' -r
 complete -c regatta -n "__fish_regatta_using_subcommand trace" -l seconds -d 'Simulated seconds [default: the scene\'s]' -r
@@ -639,6 +651,7 @@ lift\t''
 jump\t''
 ball\t''
 perpetual\t''
+drop\t''
 pong\t''
 landing\t''
 coin\t''
@@ -733,7 +746,9 @@ locate-cubic\t''
 locate-chord\t''
 swept\t''
 swept-step\t''
-penalty\t''"
+penalty\t''
+none\t''
+engine\t''"
 complete -c regatta -n "__fish_regatta_using_subcommand advise" -l tick-hz -d 'Ticks per second [default: the scene\'s]' -r
 complete -c regatta -n "__fish_regatta_using_subcommand advise" -l step -d 'The length of a tick, in place of --tick-hz' -r
 complete -c regatta -n "__fish_regatta_using_subcommand advise" -l family -d 'Judge only the methods of this family' -r -f -a "explicit\t''
@@ -782,6 +797,7 @@ lift\t''
 jump\t''
 ball\t''
 perpetual\t''
+drop\t''
 pong\t''
 landing\t''
 coin\t''
@@ -876,7 +892,9 @@ locate-cubic\t''
 locate-chord\t''
 swept\t''
 swept-step\t''
-penalty\t''"
+penalty\t''
+none\t''
+engine\t''"
 complete -c regatta -n "__fish_regatta_using_subcommand sweep" -l tick-hz -d 'Tick rates in Hz, separated by commas' -r
 complete -c regatta -n "__fish_regatta_using_subcommand sweep" -l step -d 'Lengths of a tick in seconds, in place of --tick-hz' -r
 complete -c regatta -n "__fish_regatta_using_subcommand sweep" -l vary -d 'Values of a parameter: a row for each' -r
@@ -915,6 +933,7 @@ lift\t''
 jump\t''
 ball\t''
 perpetual\t''
+drop\t''
 pong\t''
 landing\t''
 coin\t''
@@ -1009,10 +1028,12 @@ locate-cubic\t''
 locate-chord\t''
 swept\t''
 swept-step\t''
-penalty\t''"
+penalty\t''
+none\t''
+engine\t''"
 complete -c regatta -n "__fish_regatta_using_subcommand cloud" -l tick-hz -d 'Ticks per second [default: the scene\'s]' -r
 complete -c regatta -n "__fish_regatta_using_subcommand cloud" -l step -d 'The length of a tick, in place of --tick-hz' -r
-complete -c regatta -n "__fish_regatta_using_subcommand cloud" -l points -d 'Starts, 1 to 1000000000' -r
+complete -c regatta -n "__fish_regatta_using_subcommand cloud" -l points -d 'Starts, 1 to 1000000000 [default: 100000]' -r
 complete -c regatta -n "__fish_regatta_using_subcommand cloud" -l shape -d 'The shape of the starts: cat, disc or ring' -r -f -a "cat\t''
 disc\t''
 ring\t''"
@@ -1172,6 +1193,7 @@ lift\t''
 jump\t''
 ball\t''
 perpetual\t''
+drop\t''
 pong\t''
 landing\t''
 coin\t''
@@ -1421,6 +1443,7 @@ lift\t''
 jump\t''
 ball\t''
 perpetual\t''
+drop\t''
 pong\t''
 landing\t''
 coin\t''
@@ -1515,7 +1538,9 @@ locate-cubic\t''
 locate-chord\t''
 swept\t''
 swept-step\t''
-penalty\t''"
+penalty\t''
+none\t''
+engine\t''"
 complete -c regatta -n "__fish_regatta_using_subcommand fixture" -l tick-hz -d 'Ticks per second [default: the scene\'s]' -r
 complete -c regatta -n "__fish_regatta_using_subcommand fixture" -l step -d 'The length of a tick, in place of --tick-hz' -r
 complete -c regatta -n "__fish_regatta_using_subcommand fixture" -l seconds -d 'Simulated seconds [default: the scene\'s]' -r

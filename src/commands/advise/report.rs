@@ -2,13 +2,14 @@
 
 use serde_json::{Map, Value, json};
 
+use super::impact::{ImpactAdvice, exact_code};
 use super::judged::{Row, advised, best_rows, recommended_row};
 use crate::commands::output::table::{self, Column};
 use crate::measure::{
     Adviser, CRITERIA, CriterionMet, CriterionResult, MAX_ADVISED_SUBSTEPS, Recommendation,
     TAKEN_FOR, criterion_to_take,
 };
-use crate::scene::Scene;
+use crate::scene::{LaneSpec, Scene};
 use crate::tools::source_code;
 use crate::tools::source_code::{Language, Precision};
 
@@ -25,7 +26,14 @@ pub(super) fn answer(
     language: Option<Language>,
 ) -> String {
     let mut text = recommendations(scene, adviser, rows, wanted);
-    if let Some(code) = language.and_then(|language| code(adviser, rows, language)) {
+    if let Some(impact) = ImpactAdvice::of(scene, adviser, rows) {
+        text += &impact.line();
+    }
+    let code = language.and_then(|language| match exact_code(scene, language) {
+        Some(code) => Some(format!("In place of the step and the line after it:\n\n{code}")),
+        None => code(adviser, rows, language),
+    });
+    if let Some(code) = code {
         text += &format!("\n{code}");
     }
     text
@@ -143,7 +151,7 @@ pub(super) fn object(scene: &Scene, adviser: &Adviser, rows: &[Row], wanted: usi
         };
         (criterion.id().to_owned(), take)
     });
-    json!({
+    let mut object = json!({
         "scene": scene.name,
         "tick_hz": adviser.tick_hz(),
         "horizon_s": adviser.judge().horizon_s(),
@@ -152,7 +160,11 @@ pub(super) fn object(scene: &Scene, adviser: &Adviser, rows: &[Row], wanted: usi
         "methods": rows.iter().map(method).collect::<Vec<_>>(),
         "recommended": recommended.collect::<Map<_, _>>(),
         "take": criterion_to_take(&advised(rows)).map(|criterion| CRITERIA[criterion].id()),
-    })
+    });
+    if let Some(impact) = ImpactAdvice::of(scene, adviser, rows) {
+        object["impact"] = impact.object();
+    }
+    object
 }
 
 fn method(row: &Row) -> Value {
@@ -174,6 +186,9 @@ fn method(row: &Row) -> Value {
         "verdict": row.advised.verdict,
         "criteria": criteria.collect::<Map<_, _>>(),
     });
+    if let Some(impact) = row.advised.spec.own_impact() {
+        object["impact"] = impact.id.into();
+    }
     if let Some(rates) = &row.rates {
         let rates = CRITERIA.iter().zip(rates).map(|(c, hz)| (c.id().to_owned(), json!(hz)));
         object["rates"] = Value::Object(rates.collect());
@@ -181,13 +196,19 @@ fn method(row: &Row) -> Value {
     object
 }
 
+/// Returns the method of a row, with its rule for impacts if that does not go without saying.
+fn named(row: &Row) -> String {
+    let LaneSpec { method, .. } = row.advised.spec;
+    row.advised.spec.own_impact().map_or(method.id.into(), |it| format!("{}, {}", method.id, it.id))
+}
+
 const VERDICTS: &[Column<Row>] = &[
-    Column::shown("method", "METHOD", |row| json!(row.advised.spec.method.id)),
+    Column::shown("method", "METHOD", |row| json!(named(row))),
     Column::shown("verdict", "VERDICT", |row| json!(row.advised.verdict.to_string())),
 ];
 
 const BEST: &[Column<Row>] = &[
-    Column::shown("method", "METHOD", |row| json!(row.advised.spec.method.id)),
+    Column::shown("method", "METHOD", |row| json!(named(row))),
     Column::shown("bounded", "BOUNDED", |row| cost(row, 0)),
     Column::shown("looks-right", "LOOKS-RIGHT", |row| cost(row, 1)),
     Column::shown("accurate", "ACCURATE", |row| cost(row, 2)),
@@ -203,7 +224,7 @@ fn cost(row: &Row, criterion: usize) -> Value {
 }
 
 const RATES: &[Column<Row>] = &[
-    Column::shown("method", "METHOD", |row| json!(row.advised.spec.method.id)),
+    Column::shown("method", "METHOD", |row| json!(named(row))),
     Column::shown("bounded", "BOUNDED", |row| rate(row, 0)),
     Column::shown("looks-right", "LOOKS-RIGHT", |row| rate(row, 1)),
     Column::shown("accurate", "ACCURATE", |row| rate(row, 2)),

@@ -4,7 +4,7 @@ use super::{Judge, without_truth};
 use crate::bounce_finding::BounceFinding;
 use crate::by_bounces::follow_bounces;
 use crate::by_energy::follow_energy;
-use crate::by_spin::follow_spin;
+use crate::by_spin::{follow_long_spin, follow_spin};
 use crate::change::bounded;
 use crate::criterion::{Criterion, FREQUENCY_TOLERANCE, TOLERANCE, VISIBLE};
 use crate::judged_run::{JudgedRun, Until, follow};
@@ -57,6 +57,14 @@ impl Judge {
                 _ if truth.bounces() => {
                     let most = criterion.outcome();
                     self.bounces_within(truth, pace, |found| found.outcome() <= most).await
+                }
+                Criterion::Bounded if truth.spins() => {
+                    let run = follow_long_spin(truth, pace, self.max_work).await;
+                    match run.is_bounded {
+                        _ if run.is_too_much => Err(CriterionMiss::Unknown),
+                        true => Ok(run.evaluations as f64 / run.seconds),
+                        false => Err(CriterionMiss::Fails),
+                    }
                 }
                 _ if truth.spins() => {
                     let most = criterion.outcome();

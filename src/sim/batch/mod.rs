@@ -86,7 +86,7 @@ impl Ticks {
 }
 
 /// Advances the copies of a batch.
-trait Advance: Send {
+pub(crate) trait Advance: Send {
     /// Steps the copies with these coordinates and velocities through `ticks`.
     fn advance(&mut self, ticks: Ticks, q: &mut [f64], v: &mut [f64]);
 
@@ -171,6 +171,18 @@ impl Batch {
         set: InstructionSet,
     ) -> NewBatch {
         assert!(set.is_available(), "this processor does not support {set:?}");
+        Self::of(starts, |count, padded| {
+            let blocks = solver.method().and_then(|method| in_blocks(copies, method, set, padded));
+            blocks.or_else(|| one_by_one(copies, solver, count)).expect("a method")
+        })
+    }
+
+    /// Makes a batch of copies with these starts. `advance` makes what steps them, for the number of copies and that in
+    /// whole blocks, once there is room for the states.
+    pub(crate) fn of(
+        starts: impl ExactSizeIterator<Item = State<f64>>,
+        advance: impl FnOnce(usize, usize) -> Box<dyn Advance>,
+    ) -> NewBatch {
         let count = starts.len();
         let padded = count.next_multiple_of(PADDING);
         let [mut q, mut v] = [Vec::new(), Vec::new()];
@@ -183,9 +195,7 @@ impl Batch {
         for numbers in [&mut q, &mut v] {
             numbers.resize(padded, numbers.last().copied().unwrap_or(0.0));
         }
-        let blocks = solver.method().and_then(|method| in_blocks(copies, method, set, padded));
-        let advance = blocks.or_else(|| one_by_one(copies, solver, count)).expect("a method");
-        Ok(Self { q, v, count, advance })
+        Ok(Self { q, v, count, advance: advance(count, padded) })
     }
 
     /// Checks that memory suffices for this number of copies under each of these solvers at once. Allocates nothing.
@@ -291,14 +301,18 @@ impl<S: System<Vector = f64>, const W: usize> System for UniformBlock<S, W> {
 ///
 /// Each part of neighbouring copies advances itself, so that one loop shares the work among threads for methods and
 /// bodies of every type.
-struct Chunks {
+pub(crate) struct Chunks {
     grain: usize,
     parts: Vec<Box<dyn Advance>>,
 }
 
 impl Chunks {
     /// Splits `count` copies into parts of `grain`; the last part may be smaller.
-    fn new(grain: usize, count: usize, part: impl FnMut(Range<usize>) -> Box<dyn Advance>) -> Self {
+    pub(crate) fn new(
+        grain: usize,
+        count: usize,
+        part: impl FnMut(Range<usize>) -> Box<dyn Advance>,
+    ) -> Self {
         let firsts = (0..count).step_by(grain);
         Self {
             grain,

@@ -52,8 +52,8 @@ const PARAMETERS: [Of; 7] = [
         .about("the change of velocity by one kick"),
 ];
 
-/// √k of a soft wall, in radians per second, at 4.77 Hz.
-const SOFT: f64 = 30.0;
+/// Frequency of a soft wall in hertz: k is 898 per second squared.
+const SOFT_HZ: f64 = 4.77;
 
 /// The largest number of flights that a truth follows one by one. After more flights the state is not known: under drag
 /// alone their number grows exponentially with time.
@@ -347,8 +347,9 @@ impl System for Ball {
         if self.is_soft {
             let log = libm::log(self.restitution.max(1e-300));
             let turn = std::f64::consts::PI;
-            let damping = -2.0 * SOFT * log / (turn * turn + log * log).sqrt();
-            let push = |depth: f64, v: f64| (SOFT * SOFT * depth - damping * v).max(0.0);
+            let soft = 2.0 * turn * SOFT_HZ;
+            let damping = -2.0 * soft * log / (turn * turn + log * log).sqrt();
+            let push = |depth: f64, v: f64| (soft * soft * depth - damping * v).max(0.0);
             if *y < 0.0 {
                 *a += push(-y, *v);
             } else if self.ceiling > 0.0 && *y > self.ceiling {
@@ -359,9 +360,8 @@ impl System for Ball {
 }
 
 impl Body for Ball {
-    const CLASS: BodyClass = BodyClass::NoEngine(
-        "an engine bounces a ball by a rule of its own, with slop and thresholds",
-    );
+    const CLASS: BodyClass =
+        BodyClass::Ball("how it bounces a ball, with slop and thresholds, is not reproduced");
     const HAS_EXACT: bool = true;
     const HAS_WALLS: bool = true;
     const PARAMETERS: &'static [Of] = &PARAMETERS;

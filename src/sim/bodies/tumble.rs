@@ -12,6 +12,8 @@ use crate::spin::{
     unit_attitude,
 };
 
+mod copies;
+
 pub(super) fn kind() -> Kind {
     let named =
         |name: &'static str, velocity: &'static str, unit| Coordinate::new(name, velocity, unit);
@@ -29,6 +31,7 @@ pub(super) fn kind() -> Kind {
         ]
         .into(),
         leading: "spin_x_rad_per_s".into(),
+        batch: copies::batch,
         ..Kind::checked(Tumble::default(), |mut blank, values| blank.check(values))
     }
 }
@@ -43,8 +46,11 @@ const SPIN: &str = "spin_rad_per_s";
 const ATTITUDE: &str = "attitude";
 const KICK: &str = "kick_n_m_s";
 
+/// A product of three moments must not underflow.
+const SIZES: Range = Range::Between(1e-90, 1e15);
+
 const fn moment(key: &'static str, field: fn(&mut Tumble) -> &mut f64) -> Of {
-    Of::number(key, Range::POSITIVE, field).in_list(MOMENTS)
+    Of::number(key, SIZES, field).in_list(MOMENTS)
 }
 
 const fn spin(key: &'static str, field: fn(&mut Tumble) -> &mut f64) -> Of {
@@ -157,9 +163,8 @@ impl Tumble {
         let fault = |key: &'static str, what: String, remedy: &str| {
             Err(Fault { key: key.into(), what, remedy: remedy.into() })
         };
-        let sum = self.moments.element_sum();
-        for moment in self.moments.to_array() {
-            let others = sum - moment;
+        let [x, y, z] = self.moments.to_array();
+        for (moment, others) in [(x, y + z), (y, x + z), (z, x + y)] {
             if moment > others * (1.0 + ROUNDED) {
                 let what =
                     format!("no body has a moment of {moment} beside two of {others} in all");

@@ -20,6 +20,7 @@ pub(super) const CARD: Method = Method {
         tick_hz: 64,
         damping_ratio: Some(0.00818),
         substeps: Substeps::Own,
+        bounce: None,
         free_spin: None,
         version: "0.8.0",
         logged: Some("2026-11-22"),

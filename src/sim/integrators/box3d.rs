@@ -8,6 +8,7 @@ pub(super) const CARD: Method = Method {
     name: "Box3D",
     about: "the spring of Box2D to the bit: it is solved twice a substep and loses energy as fast",
     engine: Some(Engine {
+        bounce: None,
         free_spin: Some(FreeSpin::of(SpinMap::NewtonStep)),
         version: "0.1.0 in box3d-sys 0.1.16",
         logged: Some("2026-11-22"),

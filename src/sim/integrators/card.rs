@@ -4,6 +4,7 @@
 //! differ.
 
 use super::custom_method::AnyIntegrator;
+use super::engine_bounce::EngineBounce;
 use super::free_spin::FreeSpin;
 use super::integrator::Tolerance;
 use super::joint_mode::JointMode;
@@ -109,13 +110,18 @@ impl Only {
     const fn incompatibility(&self, class: BodyClass) -> Option<&'static str> {
         match (self.needs, class) {
             (Needs::Law { .. }, BodyClass::Follower(_))
-            | (Needs::Force, BodyClass::Forced | BodyClass::Joint | BodyClass::NoEngine(_))
+            | (
+                Needs::Force,
+                BodyClass::Forced | BodyClass::Joint | BodyClass::NoEngine(_) | BodyClass::Ball(_),
+            )
             | (Needs::Engine, BodyClass::Forced | BodyClass::Joint)
             | (Needs::EngineWithoutJoint, BodyClass::Forced)
             | (Needs::Spin, BodyClass::Spin) => None,
             (Needs::Law { .. } | Needs::Spin, _) | (_, BodyClass::Joint) => Some(self.reason),
             (_, BodyClass::Spin) => Some(NO_FREE_SPIN),
-            (_, BodyClass::NoEngine(why) | BodyClass::Follower(why)) => Some(why),
+            (_, BodyClass::NoEngine(why) | BodyClass::Follower(why) | BodyClass::Ball(why)) => {
+                Some(why)
+            }
         }
     }
 }
@@ -130,6 +136,8 @@ pub struct Engine {
     pub damping_ratio: Option<f64>,
     /// The meaning of the engine's substeps.
     pub substeps: Substeps,
+    /// How the engine bounces a ball on a wall; `None` if its rule is not reproduced.
+    pub bounce: Option<EngineBounce>,
     /// How the engine integrates torque-free rotation in space. It is `None` for engines in the plane, for pybullet's
     /// multibody, for PhysX 5.6 and for a held force.
     pub free_spin: Option<FreeSpin>,
@@ -278,6 +286,8 @@ pub struct Method {
     pub keeps_time: bool,
     /// The bodies that the method steps; `None` if it steps every body.
     pub only: Option<Only>,
+    /// Whether a person's own lines of the method turn a body at a floor at 0.
+    pub has_own_floor: bool,
     /// The number of substeps of a lane that sets none.
     pub default_substeps: u32,
     /// The engine whose tick the method reproduces; `None` for any other method.
@@ -300,9 +310,16 @@ impl Method {
     /// checked elsewhere.
     pub const fn incompatibility(&self, class: BodyClass) -> Option<&'static str> {
         match (&self.only, class, &self.engine) {
-            (None, ..) | (_, BodyClass::Spin, Some(Engine { free_spin: Some(_), .. })) => None,
+            (None, ..)
+            | (_, BodyClass::Spin, Some(Engine { free_spin: Some(_), .. }))
+            | (_, BodyClass::Ball(_), Some(Engine { bounce: Some(_), .. })) => None,
             (Some(only), ..) => only.incompatibility(class),
         }
+    }
+
+    /// Returns the engine's own rule for the bounces of a ball; `None` if it has none that is known.
+    pub fn bounce(&self) -> Option<EngineBounce> {
+        self.engine?.bounce
     }
 
     /// Whether the method steps a free rotation in space and nothing else.
@@ -438,6 +455,7 @@ const PLAIN: Method = Method {
     restart: None,
     keeps_time: true,
     only: None,
+    has_own_floor: false,
     default_substeps: 1,
     engine: None,
     follower: None,

@@ -19,6 +19,7 @@ pub(super) const CARD: Method = Method {
         substeps: Substeps::Ticks(
             "for (int i = 0; i < {n}; i++) cpSpaceStep(space, dt / {n}); // step {n} times with dt / {n}",
         ),
+        bounce: Some(EngineBounce::Chipmunk),
         free_spin: None,
         version: "2.0.1 in pymunk 7.3.1",
         logged: Some("2026-11-21"),

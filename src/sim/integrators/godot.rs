@@ -21,6 +21,7 @@ pub(super) const CARD: Method = Method {
         substeps: Substeps::Ticks(
             "Engine.physics_ticks_per_second = {hz} # step {n} times with dt / {n}: Godot has no substeps, and whole ticks",
         ),
+        bounce: None,
         // This is the map of Godot's bodies in space.
         free_spin: Some(FreeSpin::of(SpinMap::Constant)),
         version: "4.x",

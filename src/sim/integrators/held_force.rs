@@ -16,6 +16,7 @@ pub(super) const CARD: Method = Method {
         tick_hz: 60,
         damping_ratio: Some(-0.01961),
         substeps: Substeps::Own,
+        bounce: None,
         free_spin: None,
         version: "",
         logged: None,

@@ -26,6 +26,7 @@ pub(super) const CARD: Method = Method {
         tick_hz: 60,
         damping_ratio: Some(0.05219),
         substeps: Substeps::Own,
+        bounce: Some(EngineBounce::Jolt),
         free_spin: Some(FreeSpin {
             opt_in: Some(SpinMap::ScaledMomentum),
             ..FreeSpin::of(SpinMap::Constant)

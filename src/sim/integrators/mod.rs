@@ -30,6 +30,7 @@ mod critically_damped_spring;
 mod custom_method;
 mod dormand_prince_54;
 mod engine;
+mod engine_bounce;
 mod explicit_euler;
 mod exponential_decay;
 mod exponential_rosenbrock_euler;
@@ -103,6 +104,7 @@ pub use card::{
 };
 pub use custom_method::{AnyIntegrator, AnySystem, custom_integrator};
 pub use engine::{EngineMethod, EngineRule, EngineTick};
+pub use engine_bounce::EngineBounce;
 pub use failure::{StepFailure, Stepped};
 pub use follower::{Follower, FollowerRule};
 pub use free_spin::{FreeSpin, SpinMap};

@@ -33,6 +33,7 @@ pub(super) const CARD: Method = Method {
         tick_hz: 500,
         damping_ratio: Some(0.0),
         substeps: Substeps::Own,
+        bounce: Some(EngineBounce::Mujoco),
         free_spin: Some(FreeSpin {
             opt_in: Some(SpinMap::NewtonStep),
             ..FreeSpin::of(SpinMap::Explicit)

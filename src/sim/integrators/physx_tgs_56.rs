@@ -12,6 +12,7 @@ pub(super) const CARD: Method = Method {
         tick_hz: 60,
         damping_ratio: Some(0.01309),
         substeps: Substeps::Iterations,
+        bounce: None,
         // There is no log of a tumbling body in this version.
         free_spin: None,
         version: "5.6.1 in physx-js-webidl 2.7.3",

@@ -8,6 +8,7 @@ pub(super) use super::card::{
     SYMPLECTIC, Substeps,
 };
 pub(super) use super::engine::{EngineRule, EngineTick, cap, each, part_below};
+pub(super) use super::engine_bounce::EngineBounce;
 pub(super) use super::failure::Stepped;
 pub(super) use super::follower::{FollowerRule, lerp};
 pub(super) use super::free_spin::{FreeSpin, SpinMap};

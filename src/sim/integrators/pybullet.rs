@@ -18,6 +18,7 @@ pub(super) const CARD: Method = Method {
         substeps: Substeps::Ticks(
             "for _ in range({n}): p.stepSimulation()  # step {n} times with dt / {n}",
         ),
+        bounce: Some(EngineBounce::Pybullet),
         free_spin: None,
         version: "3.2.7",
         logged: Some("2026-11-21"),

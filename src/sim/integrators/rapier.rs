@@ -23,6 +23,7 @@ pub(super) const CARD: Method = Method {
         tick_hz: 60,
         damping_ratio: Some(0.01309),
         substeps: Substeps::Own,
+        bounce: Some(EngineBounce::Soft { threshold: 0.0, is_capped: false }),
         free_spin: Some(FreeSpin::of(SpinMap::ScaledMomentum)),
         version: "0.36.1",
         logged: Some("2026-11-21"),

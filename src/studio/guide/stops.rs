@@ -350,4 +350,17 @@ pub static STOPS: &[Stop] = &[
         answer: "It tips over at 0.6 s, and has gained 96 % energy after 5 s: this step keeps the length of L, but L leaves its white curve, away from the axis of the spin. Bullet's step does not tip over; the step by rotation and split-3 stay on the curve.",
         ..SPRING
     },
+    Stop {
+        title: "A ball that bounces higher",
+        scene: "perpetual",
+        method: "velocity-verlet",
+        question: "Why does my ball bounce higher every time? It loses nothing at the floor, Verlet steps it, and the line after the step is `if (y < 0) { y = 0; v = -v; }`. How high is its tenth bounce?",
+        choices: &["1 m, as the first", "lower", "higher"],
+        right: 2,
+        task: "Press `C` to race it beside other lines and other methods.",
+        keys: &[Key::Sign('c')],
+        goal: Goal::Race,
+        answer: "It is 36 % too high: putting the ball back on the floor keeps the speed of a deeper place, half a tick of gravity at each impact. With semi-implicit Euler the same line loses 33 %. The exact time of impact keeps the height at every rate. `J` changes the line.",
+        ..SPRING
+    },
 ];

@@ -5,12 +5,12 @@ use glam::{DQuat, DVec3};
 use super::candidates::{Candidate, SpringForm};
 use super::{Conclusion, Fitted, Identification};
 use crate::sim::bodies::{Body, Tumble};
-use crate::sim::integrators::{METHODS, Method, Needs, integrator, problem};
+use crate::sim::integrators::{Family, METHODS, Method, Needs, integrator, problem};
 use crate::sim::{BodyClass, State};
 
 /// Largest number of substeps.
 const MAX_SUBSTEPS: u32 = 8;
-/// Largest residual that fits numbers of single precision, and that of a log with twelve digits.
+/// Largest residual that fits numbers of single precision, and that of double precision.
 const NOISE: f64 = 1e-6;
 const EXACT: f64 = 1e-11;
 /// A step is named if the next one has a residual larger than its own by the second factor, or by the first if its own
@@ -21,7 +21,7 @@ const ALIKE: f64 = 1e-13;
 
 /// Finds the step behind ticks, each with its ω (rad/s) in the frame of the principal axes, with these moments of
 /// inertia about them. Of the moments only the ratios count. A residual is the largest difference after one tick, in
-/// parts of the fastest spin.
+/// parts of the fastest spin and of the terms of a step of it.
 ///
 /// Returns `None` if no two rows are a tick apart, or if nothing spins.
 pub fn identify_spin(
@@ -29,11 +29,15 @@ pub fn identify_spin(
     moments: DVec3,
     tick_hz: f64,
 ) -> Option<Identification> {
+    let moments = moments / moments.max_element();
     let next = |pair: &&[(u64, DVec3)]| pair[1].0 == pair[0].0 + 1;
     let pairs: Vec<_> = rows.windows(2).filter(next).map(|pair| [pair[0].1, pair[1].1]).collect();
     let fastest = pairs.iter().flatten().map(|spin| spin.length()).fold(0.0, f64::max);
+    // A step rounds the terms of its sum, which exceed the sum where it explodes.
+    let bend = fastest / moments.min_element() / tick_hz;
+    let scale = fastest * (1.0 + bend);
     let largest = |differences: &mut dyn Iterator<Item = DVec3>| {
-        differences.map(|it| it.abs().max_element() / fastest).fold(0.0, f64::max)
+        differences.map(|it| it.abs().max_element() / scale).fold(0.0, f64::max)
     };
     let fit = |candidate: Candidate| {
         let of = |[from, _]: &[DVec3; 2]| after_tick(&candidate, moments, *from, 1.0 / tick_hz);
@@ -42,10 +46,11 @@ pub fn identify_spin(
         Some((Fitted { candidate, residual }, spins))
     };
     let mut fits: Vec<(Fitted, Vec<DVec3>)> = candidates().filter_map(fit).collect();
-    // Steps that are the same differ by rounding. A rule for a body that spins comes before the engines that use it.
+    // Steps that are the same differ by rounding. A rule for a body that spins comes before a general method of the
+    // same step, and before the engines that use it.
     let rank = |fitted: &Fitted| {
         let Candidate { method, substeps, .. } = fitted.candidate;
-        (method.is_engine(), substeps)
+        (method.is_engine(), !is_rule(method), substeps)
     };
     fits.sort_by(|(a, _), (b, _)| {
         (a.residual as f32).total_cmp(&(b.residual as f32)).then(rank(a).cmp(&rank(b)))
@@ -73,13 +78,18 @@ pub fn identify_spin(
     })
 }
 
-/// Returns the steps that a body has for spins alone, and those of engines.
+/// Whether a method is for spins alone.
+fn is_rule(method: &Method) -> bool {
+    method.only.is_some_and(|only| only.needs == Needs::Spin)
+}
+
+/// Returns the steps that a body has for spins alone, those of engines, and the general ones that need no earlier step.
 fn candidates() -> impl Iterator<Item = Candidate> {
-    let is_of_spins = |method: &&Method| {
-        let is_rule = method.only.is_some_and(|only| only.needs == Needs::Spin);
-        method.incompatibility(BodyClass::Spin).is_none() && (is_rule || method.is_engine())
+    let steps = |method: &&Method| {
+        let is_whole = method.restart.is_none() && method.family != Family::Adaptive;
+        method.incompatibility(BodyClass::Spin).is_none() && (method.is_engine() || is_whole)
     };
-    METHODS.iter().filter(is_of_spins).flat_map(|method| {
+    METHODS.iter().filter(steps).flat_map(|method| {
         let spring = SpringForm::Acceleration;
         (1..=MAX_SUBSTEPS).map(move |substeps| Candidate { method, substeps, spring })
     })
@@ -115,6 +125,38 @@ mod tests {
         let rows: Vec<_> =
             rows.map(|(x, z)| (x.tick, DVec3::new(x.x, x.v.unwrap(), z.x))).collect();
         identify_spin(&rows, moments, 60.0).unwrap()
+    }
+
+    /// Identifies ticks of a method of the table, kept in single precision.
+    fn of_single_precision(id: &str, moments: DVec3, spin: DVec3, hz: f64) -> Identification {
+        let method = crate::sim::integrators::method(id).unwrap();
+        let step = Candidate { method, substeps: 1, spring: SpringForm::Acceleration };
+        let next = |spin: &DVec3| {
+            let next = after_tick(&step, moments, *spin, 1.0 / hz)?.as_vec3().as_dvec3();
+            (next.length() < 1e6).then_some(next)
+        };
+        let spins = std::iter::successors(Some(spin), next).take(200);
+        identify_spin(&Vec::from_iter((0..).zip(spins)), moments, hz).unwrap()
+    }
+
+    #[test]
+    fn a_step_in_single_precision_is_never_given_the_name_of_another() {
+        let moments = DVec3::new(1.0, 2.0, 3.0);
+        let newton = of_single_precision("gyro-newton", moments, DVec3::new(0.3, 2.0, 0.2), 60.0);
+        assert_eq!(newton.best.unwrap().candidate.method.id, "gyro-newton");
+        assert_eq!(newton.conclusion, Conclusion::Identified);
+        for near in [1e-3, 1e-2, 0.1] {
+            let moments = DVec3::new(1.0, 2.0, 2.0 + near);
+            let found =
+                of_single_precision("implicit-euler", moments, DVec3::new(0.3, 1.0, 0.8), 60.0);
+            let is_right = found.conclusion == Conclusion::CannotTell
+                || found.best.unwrap().candidate.method.id == "implicit-euler";
+            assert!(is_right, "{near}: {:?}", found.best);
+        }
+        let spin = DVec3::new(3.0, 12.0, 2.0);
+        let exploding = of_single_precision("gyro-explicit", moments, spin, 10.0);
+        assert_eq!(exploding.conclusion, Conclusion::Identified, "{:?}", exploding.best);
+        assert_eq!(exploding.best.unwrap().candidate.method.id, "gyro-explicit");
     }
 
     #[test]

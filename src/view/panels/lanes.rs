@@ -152,6 +152,13 @@ impl TableRow for Row<'_> {
             true => format!("Order {}", method.order),
             false => format!("Order {}, {} with drag", method.order, method.order_with_drag),
         };
+        let has_walls = self.studio.scene().bodies.iter().any(|body| body.kind.has_walls);
+        let impact = self.spec.impact;
+        let bounced = impact.order(method).filter(|_| has_walls);
+        let order = match bounced {
+            Some(found) => format!("{order}; with this impact ({}): {found}", impact.id),
+            None => order,
+        };
         let cost = match method.evaluations {
             Some(1) if method.engine.is_some_and(|engine| engine.has_substeps()) => {
                 "1 evaluation per tick, whatever the substeps".into()

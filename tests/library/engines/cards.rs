@@ -260,7 +260,7 @@ fn each_body_unknown_to_engines_has_its_own_reason() {
     }
     reasons.extend(Net::CLASS.engine_refusal());
     let distinct: HashSet<_> = reasons.iter().collect();
-    assert_eq!((reasons.len(), distinct.len()), (5, 5), "{reasons:?}");
+    assert_eq!((reasons.len(), distinct.len()), (4, 4), "{reasons:?}");
     // A reason of the engine's own stays.
     let spring = kind("spring").unwrap();
     let said = incompatibility(method("engine-pybullet").unwrap(), spring, &[1.0; 6]).unwrap();

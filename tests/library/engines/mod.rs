@@ -1,5 +1,6 @@
 //! Engines: their cards against logs of the engines themselves, and which engine a log came from.
 
+mod bounces;
 mod cards;
 mod identified;
 mod log;

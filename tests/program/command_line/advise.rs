@@ -497,3 +497,23 @@ fn a_pipe_gets_a_progress_line_every_ten_seconds() {
     assert!(tells.iter().any(|told| line.ends_with(told)), "{line:?}");
     assert!(seconds > 10.0, "{seconds} s");
 }
+
+#[test]
+fn advise_names_the_rule_of_a_ball_beside_the_scenes_own() {
+    let said = stdout_of("advise --scene perpetual --method velocity-verlet --as csharp");
+    let line = "velocity-verlet with locate: accurate at 1 substep; your clamp at 60 Hz: grows · bounces 36 % too high after 10";
+    assert!(said.lines().any(|it| it == line), "{said}");
+    // The exact bounces of this ball.
+    assert!(said.contains("double e = 1.0;") && said.contains("Math.Sqrt"), "{said}");
+    let spring = stdout_of("advise --scene spring --method velocity-verlet");
+    assert!(!spring.contains("with locate"), "{spring}");
+    let object = advice("--scene perpetual --method velocity-verlet");
+    assert_eq!(object["impact"]["impact"], "locate");
+    assert_eq!(object["impact"]["yours"]["impact"], "clamp");
+    let folder = tempfile::tempdir().unwrap();
+    let lines = "v += a(x, v) * h\nx += v * h\nif x < 0 {\n    x = 0\n    v = -0.8 * v\n}\n";
+    fs::write(folder.path().join("mine.step"), lines).unwrap();
+    let said = run_in(folder.path(), "advise --scene ball --method mine.step").stdout;
+    let said = String::from_utf8(said).unwrap();
+    assert!(said.contains("; your mine at 60 Hz: dies away · bounces"), "{said}");
+}

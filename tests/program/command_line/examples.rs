@@ -102,7 +102,7 @@ fn every_example_with_an_answer_prints_that_answer() {
     let expected = [
         ("commands", 4),
         ("logs", 1),
-        ("questions", 24),
+        ("questions", 25),
         ("code", 2),
         ("step", 3),
         ("README", 1),

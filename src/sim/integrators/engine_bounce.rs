@@ -1,0 +1,21 @@
+//! How physics engines bounce a ball.
+
+/// An engine's own rule for the bounces of a ball. The rules of planck, matter and Havok are not reproduced.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum EngineBounce {
+    /// Chipmunk, which moves first, and solves overlaps with the impulses of the last tick.
+    Chipmunk,
+    /// Jolt, which bounces with the speed of before the tick when it expects an impact within it.
+    Jolt,
+    /// A soft contact in substeps, and the rebound at the end of the tick, with the speed of before the tick.
+    Soft {
+        /// The speed in metres per second up to which nothing bounces.
+        threshold: f64,
+        /// Whether the contact is softer where substeps are longer than 1/240 s.
+        is_capped: bool,
+    },
+    /// A pybullet multibody, whose rebound loses the gap to the wall in the tick that expects the impact.
+    Pybullet,
+    /// MuJoCo with `solref = (-1000, -b)`: a penalty force, with b from the restitution.
+    Mujoco,
+}
