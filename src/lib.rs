@@ -6,25 +6,28 @@
     doc = r#"
 # The house
 
-A room may use only the rooms in its third column, all of them above it. A test checks this.
+A room may use only the rooms that its row lists, all of them above it. Those with a package of their own are kept to that by
+Cargo, and have `crate::sim` for `regatta_sim`; for the others a test checks it. This package is the façade: it has every room
+under the name in the first column.
 
-| room | holds | may name | open first |
-|---|---|---|---|
-| [`sim`] | states, equations, methods, bodies | - | `sim/integrators/rk4.rs` |
-| [`scene`] | scenes as text and value, actions, custom bodies | `sim` | `scene/mod.rs` |
-| [`table`] | a table reader: bytes to rows and numbers | `sim scene` | `table/mod.rs` |
-| [`run`] | a race against the truth: actions, past, recording | `sim table scene` | `run/mod.rs` |
-| [`tools`] | a log's method, springs for engines, source code | `sim table scene` | `tools/port.rs` |
-| [`measure`] | verdicts, advice, stability maps, clouds | `sim scene run tools` | `measure/judge.rs` |
-| [`loops`] | game loops, frame traces, the loop lab | `sim table scene run measure` | `loops/loop_run.rs` |
-| [`look`] | shapes, handles and colours of bodies | `sim scene run measure` | `look/pendulum.rs` |
-| [`studio`] | a person at a run: commands, view, background work | `sim scene run tools measure loops look` | `studio/apply.rs` |
-| [`stage`] | the picture as data: [`compose`](stage::compose()) makes a [`Picture`](stage::Picture) | `sim scene run measure loops look studio` | `stage/compose.rs` |
-| `view` | pixels: panels, charts, `FrameRenderer::draw`, two executors | `scene run tools measure loops look studio stage` | `view/frame.rs` |
-| `window` | a screen, real time, files | `scene run measure loops look studio view` | `window.rs` |
-| `commands` | the command line: captures, threads | `sim table scene run tools measure loops look studio view window` | `commands/mod.rs` |
+| room | package | holds | may name | open first |
+|---|---|---|---|---|
+| [`sim`] | `regatta-sim` | states, equations, methods, bodies | - | `sim/integrators/rk4.rs` |
+| [`scene`] | `regatta-scene` | scenes as text and value, actions, custom bodies | `sim` | `scene/mod.rs` |
+| [`table`] | `regatta-table` | a table reader: bytes to rows and numbers | `sim scene` | `table/mod.rs` |
+| [`run`] | `regatta-run` | a race against the truth: actions, past, recording | `sim table scene` | `run/mod.rs` |
+| [`tools`] | `regatta-tools` | a log's method, springs for engines, source code | `sim table scene` | `tools/port.rs` |
+| [`measure`] | `regatta-measure` | verdicts, advice, stability maps, clouds | `sim scene run tools` | `measure/judge.rs` |
+| [`loops`] | `regatta-loops` | game loops, frame traces, the loop lab | `sim table scene run measure` | `loops/loop_run.rs` |
+| [`look`] | `regatta-look` | shapes, handles and colours of bodies | `sim scene run measure` | `look/pendulum.rs` |
+| [`studio`] | `regatta-studio` | a person at a run: commands, view, background work | `sim scene run tools measure loops look` | `studio/apply.rs` |
+| [`stage`] | `regatta-stage` | the picture as data: [`compose`](stage::compose()) makes a [`Picture`](stage::Picture) | `sim scene run measure loops look studio` | `stage/compose.rs` |
+| `view` | `regatta-view` | pixels: panels, charts, `FrameRenderer::draw`, two executors | `scene run tools measure loops look studio stage` | `view/frame.rs` |
+| `window` | `regatta` | a screen, real time, files | `scene run measure loops look studio view` | `window.rs` |
+| `commands` | `regatta` | the command line: captures, threads | `sim table scene run tools measure loops look studio view window` | `commands/mod.rs` |
 
-Without features the crate is `sim` without [`bodies`](sim::bodies) and [`law`](sim::law)s, for a game's own loop.
+Without features this package is `sim` without [`bodies`](sim::bodies) and [`law`](sim::law)s, for a game's own loop, which
+may as well take `regatta-sim` alone.
 `lab` adds the rooms up to `stage`; `view` and `window` follow. `cli` is `commands`: those that draw need `view`,
 and `play` needs `window`. The default, `desktop`, has all. Up to `stage` nothing knows a graphics crate, a file or
 a wall clock: text comes in as `&str`, time as integers.
@@ -151,44 +154,32 @@ mod atomic_file;
 #[cfg(feature = "cli")]
 #[allow(clippy::disallowed_methods, clippy::disallowed_types, reason = "of the drivers")]
 pub mod commands;
-#[cfg(feature = "lab")]
-pub mod look;
-#[cfg(feature = "lab")]
-pub mod loops;
 pub mod manual;
-#[cfg(feature = "lab")]
-pub mod measure;
-#[cfg(any(feature = "cli", feature = "view"))]
-mod picture_note;
 pub mod prelude;
 #[cfg(any(feature = "cli", feature = "window"))]
 #[allow(clippy::disallowed_methods, clippy::disallowed_types, reason = "of the drivers")]
 mod regular_file;
-#[cfg(feature = "lab")]
-pub mod run;
-#[cfg(feature = "lab")]
-pub mod scene;
-pub mod sim;
-#[cfg(feature = "lab")]
-pub mod stage;
 #[cfg(any(feature = "cli", feature = "window"))]
 #[allow(clippy::disallowed_methods, clippy::disallowed_types, reason = "of the drivers")]
 mod stopwatch;
-#[cfg(feature = "lab")]
-pub mod studio;
-#[cfg(feature = "lab")]
-pub mod table;
-#[cfg(feature = "lab")]
-pub mod tools;
-#[cfg(feature = "view")]
-#[allow(clippy::iter_over_hash_type, reason = "textures are uploaded in any order")]
-pub mod view;
 #[cfg(feature = "window")]
 #[allow(clippy::disallowed_methods, clippy::disallowed_types, reason = "of the drivers")]
 pub mod window;
 
 /// The vectors of the systems, in the version whose bits are promised.
 pub use glam;
+#[doc(inline)]
+pub use regatta_sim as sim;
+#[cfg(feature = "view")]
+#[doc(inline)]
+pub use regatta_view as view;
+#[cfg(feature = "lab")]
+#[doc(inline)]
+pub use {
+    regatta_look as look, regatta_loops as loops, regatta_measure as measure, regatta_run as run,
+    regatta_scene as scene, regatta_stage as stage, regatta_studio as studio,
+    regatta_table as table, regatta_tools as tools,
+};
 
 #[cfg(feature = "lab")]
 pub use measure::{advise, try_advise};

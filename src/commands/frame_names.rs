@@ -12,8 +12,8 @@ use crate::commands::argument::brief;
 use crate::commands::error::{Error, PlaceOf};
 use crate::commands::manifest;
 use crate::commands::output::same_file_path;
-use crate::picture_note::{NOTED_WITHIN, is_encoded_here};
 use crate::regular_file;
+use crate::studio::picture_note::{NOTED_WITHIN, is_encoded_here};
 
 /// Maximum number of frames in a folder, because their numbers have six digits.
 pub(crate) const MAX_FRAMES: u32 = 1_000_000;

@@ -14,60 +14,58 @@ const MARGIN: f64 = 0.1;
 /// Lines of the hatching per radius.
 const HATCHES: f64 = 4.0;
 
-impl Ball {
-    /// Returns the height of the first flight, or the distance of the walls.
-    fn range(&self) -> f64 {
-        let highest = self.height + self.speed * self.speed / (2.0 * self.gravity.max(1.0));
-        let range = if self.ceiling > 0.0 { self.ceiling } else { highest };
-        if range > 0.0 { range } else { 1.0 }
-    }
+/// Returns the height of the first flight, or the distance of the walls.
+fn range(ball: &Ball) -> f64 {
+    let highest = ball.height + ball.speed * ball.speed / (2.0 * ball.gravity.max(1.0));
+    let range = if ball.ceiling > 0.0 { ball.ceiling } else { highest };
+    if range > 0.0 { range } else { 1.0 }
+}
 
-    fn radius(&self) -> f64 {
-        BALL * self.range()
-    }
+fn radius(ball: &Ball) -> f64 {
+    BALL * range(ball)
+}
 
-    /// Returns the point at this height and this distance aside; between two walls the motion is to the right.
-    fn at(&self, height: f64, aside: f64) -> DVec2 {
-        if self.ceiling > 0.0 { DVec2::new(height, aside) } else { DVec2::new(aside, height) }
-    }
+/// Returns the point at this height and this distance aside; between two walls the motion is to the right.
+fn at(ball: &Ball, height: f64, aside: f64) -> DVec2 {
+    if ball.ceiling > 0.0 { DVec2::new(height, aside) } else { DVec2::new(aside, height) }
+}
 
-    /// Hatches the part of a disc around `centre` that is beyond a wall at `wall`, on its lower (1) or upper (-1) side.
-    fn hatch(&self, centre: f64, wall: f64, side: f64, outline: &mut Outline) {
-        let (radius, step) = (self.radius(), self.radius() / HATCHES);
-        let mut depth = step / 2.0;
-        while depth < 2.0 * radius {
-            let off = (wall - side * depth - centre).abs();
-            let half = (radius * radius - off * off).max(0.0).sqrt();
-            if half > 0.0 {
-                let height = wall - side * depth;
-                let [from, to] = [-half, half].map(|aside| self.at(height, aside));
-                outline.marks.push(Mark::Hatch { from, to });
-            }
-            depth += step;
+/// Hatches the part of a disc around `centre` that is beyond a wall at `wall`, on its lower (1) or upper (-1) side.
+fn hatch(ball: &Ball, centre: f64, wall: f64, side: f64, outline: &mut Outline) {
+    let (radius, step) = (radius(ball), radius(ball) / HATCHES);
+    let mut depth = step / 2.0;
+    while depth < 2.0 * radius {
+        let off = (wall - side * depth - centre).abs();
+        let half = (radius * radius - off * off).max(0.0).sqrt();
+        if half > 0.0 {
+            let height = wall - side * depth;
+            let [from, to] = [-half, half].map(|aside| at(ball, height, aside));
+            outline.marks.push(Mark::Hatch { from, to });
         }
+        depth += step;
     }
 }
 
 impl BodyPicture for Ball {
     fn draw(&self, q: &[f64], outline: &mut Outline) {
-        let half = HALF_FLOOR * self.range();
+        let half = HALF_FLOOR * range(self);
         // The coordinate is drawn at the centre, so that the walls are a radius beyond it.
-        let radius = self.radius();
+        let radius = radius(self);
         let mut walls = vec![(-radius, 1.0)];
         walls.extend((self.ceiling > 0.0).then_some((self.ceiling + radius, -1.0)));
         let centre = q[0];
-        outline.marks.push(Mark::Disc { centre: self.at(centre, 0.0), radius });
+        outline.marks.push(Mark::Disc { centre: at(self, centre, 0.0), radius });
         for (wall, side) in walls {
-            let [from, to] = [-half, half].map(|aside| self.at(wall, aside));
+            let [from, to] = [-half, half].map(|aside| at(self, wall, aside));
             outline.marks.push(Mark::Wall { from, to });
-            self.hatch(centre, wall, side, outline);
+            hatch(self, centre, wall, side, outline);
         }
     }
 
     fn framing(&self) -> Framing {
-        let (range, margin) = (self.range(), 1.0 + 2.0 * MARGIN);
-        let half = self.at(range / 2.0 * margin + self.radius(), HALF_FLOOR * range);
-        Framing::Fixed { centre_m: self.at(range / 2.0, 0.0), half_m: half, trail_s: 0.0 }
+        let (range, margin) = (range(self), 1.0 + 2.0 * MARGIN);
+        let half = at(self, range / 2.0 * margin + radius(self), HALF_FLOOR * range);
+        Framing::Fixed { centre_m: at(self, range / 2.0, 0.0), half_m: half, trail_s: 0.0 }
     }
 
     fn describe_motion(&self, q: &[f64], v: &[f64]) -> Option<String> {
@@ -82,7 +80,7 @@ impl BodyPicture for Ball {
     }
 
     fn handles(&self, q: &[f64]) -> Vec<Handle> {
-        vec![Handle { at: self.at(q[0], 0.0), radius: self.radius() }]
+        vec![Handle { at: at(self, q[0], 0.0), radius: radius(self) }]
     }
 
     fn pull(&self, q: &mut [f64], v: &mut [f64], pull: Pull) {

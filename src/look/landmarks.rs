@@ -3,18 +3,20 @@
 use SilhouetteShape::{Disc, Outline, Ring};
 
 /// A thing of familiar size.
-pub(crate) struct Landmark {
+pub struct Landmark {
     /// Name in the singular with its article, and name in the plural.
-    pub(crate) names: [&'static str; 2],
+    pub names: [&'static str; 2],
     /// Length in metres, and the same length as text.
-    pub(crate) length_m: f64,
-    pub(crate) length: &'static str,
-    pub(crate) silhouette: &'static [SilhouetteShape],
+    pub length_m: f64,
+    /// The length as text.
+    pub length: &'static str,
+    /// Shapes of the silhouette.
+    pub silhouette: &'static [SilhouetteShape],
 }
 
 /// A part of a silhouette. The unit is the length of the whole thing; x counts from its left end, and y upwards from
 /// its middle.
-pub(crate) enum SilhouetteShape {
+pub enum SilhouetteShape {
     /// A filled circle with this centre and radius.
     Disc([f32; 2], f32),
     /// An ellipse's line with this centre, and these radii across and up.
@@ -25,7 +27,7 @@ pub(crate) enum SilhouetteShape {
 
 impl Landmark {
     /// Returns the largest extent of the silhouette up or down from its middle, relative to the thing's length.
-    pub(crate) fn half_height(&self) -> f32 {
+    pub fn half_height(&self) -> f32 {
         let highest = |part: &SilhouetteShape| match part {
             Disc([_, y], radius) | Ring([_, y], [_, radius]) => y.abs() + radius,
             Outline(corners) => corners.iter().fold(0.0, |most, [_, y]| y.abs().max(most)),
@@ -49,7 +51,7 @@ const fn known(
 /// the way to it (1 au) and of the light year are those of the IAU. The orbit is twice 30.07 au wide, the Galaxy
 /// 100 000 light years and the observable universe 93 billion.
 #[rustfmt::skip]
-pub(crate) static LANDMARKS: [Landmark; 16] = [
+pub static LANDMARKS: [Landmark; 16] = [
     known(["a person", "people"], 1.75, "1.75 m", &[
         Disc([0.07, 0.0], 0.065),
         Outline(&[[0.15, 0.11], [0.3, 0.12], [0.55, 0.08], [0.55, -0.08], [0.3, -0.12],
@@ -139,7 +141,7 @@ const LEAST_DECADES: f64 = 0.3;
 
 /// Returns the powers of ten between the last landmark below this width in metres and the next one; infinity beyond the
 /// last landmark.
-pub(crate) fn decades_to_next(width_m: f64) -> f64 {
+pub fn decades_to_next(width_m: f64) -> f64 {
     let next = LANDMARKS.iter().position(|landmark| landmark.length_m > width_m);
     let Some(next) = next else { return f64::INFINITY };
     let [from, to] = [next.max(1) - 1, next.max(1)].map(|index| LANDMARKS[index].length_m);

@@ -1,6 +1,16 @@
 //! Looks: the outline of each kind of body, and the part of its world that the stage shows. Each kind has one file,
 //! and one line in the table below.
 
+// The rules of a room: see `src/lib.rs` and clippy.toml.
+#![warn(clippy::exit, clippy::print_stderr, clippy::print_stdout)]
+#![cfg_attr(not(test), warn(clippy::disallowed_methods, clippy::disallowed_types))]
+#![warn(clippy::iter_over_hash_type)]
+
+use regatta_measure as measure;
+use regatta_run as run;
+use regatta_scene as scene;
+use regatta_sim as sim;
+
 use std::any::Any;
 
 use glam::DVec2;
@@ -20,7 +30,7 @@ mod custom;
 mod density;
 mod follow;
 mod helm;
-pub(crate) mod landmarks;
+pub mod landmarks;
 mod law;
 mod net;
 mod orbit;
@@ -147,7 +157,7 @@ static CUSTOM_LOOK: LookCard = LookCard::of::<Custom>("custom", custom::picture)
 
 /// Returns the unit of a body's picture, as text for people. It is the unit of the body's plane or, without a plane, of
 /// its first coordinate. A pure number has an empty unit.
-pub(crate) fn drawn_unit(kind: &Kind) -> &'static str {
+pub fn drawn_unit(kind: &Kind) -> &'static str {
     let plane = match &kind.origin {
         Origin::Law(law) if !law.has_places() => law.text().plane,
         Origin::Custom(info) => info.plane,

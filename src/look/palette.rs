@@ -12,8 +12,10 @@ use crate::sim::integrators::{METHODS, Method};
 /// A colour: red, green, blue and alpha in sRGB, where alpha is not premultiplied.
 pub type Rgba = [u8; 4];
 
-pub(crate) const WHITE: Rgba = [255; 4];
-pub(crate) const BLACK: Rgba = [0, 0, 0, 255];
+/// Opaque white.
+pub const WHITE: Rgba = [255; 4];
+/// Opaque black.
+pub const BLACK: Rgba = [0, 0, 0, 255];
 
 /// A dark or a light chart.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -68,7 +70,7 @@ impl Theme {
     }
 
     /// Returns the colour and the dash pattern of the game loop with this index in
-    /// [`POLICIES`](crate::loops::POLICIES). Any seven neighbours differ in colour, and none has a method's colour.
+    /// `POLICIES`. Any seven neighbours differ in colour, and none has a method's colour.
     pub fn loop_style(self, index: usize) -> (Rgba, [f32; 2]) {
         let loops = &self.palette().loops;
         (loops[index % loops.len()], DASHES[index % FIRST_DASHES])
@@ -134,7 +136,7 @@ impl Palette {
 }
 
 /// Whether black text is more legible on this colour than white text.
-pub(crate) fn is_bright([r, g, b, _]: Rgba) -> bool {
+pub fn is_bright([r, g, b, _]: Rgba) -> bool {
     let [r, g, b] = [r, g, b].map(u32::from);
     2 * r + 5 * g + b > 8 * 112
 }
@@ -364,10 +366,10 @@ pub fn mix(from: Rgba, to: Rgba, part: f32) -> Rgba {
 }
 
 /// Opacity of the sign of a verdict at a former tick rate.
-pub(crate) const STALE: f32 = 0.35;
+pub const STALE: f32 = 0.35;
 
 /// Returns the same colour with its alpha scaled by `part`.
-pub(crate) fn fade([r, g, b, a]: Rgba, part: f32) -> Rgba {
+pub fn fade([r, g, b, a]: Rgba, part: f32) -> Rgba {
     [r, g, b, (f32::from(a) * part.clamp(0.0, 1.0)) as u8]
 }
 

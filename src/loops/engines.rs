@@ -99,7 +99,7 @@ pub(super) fn card(id: &'static str, text: &'static str, lines: LoopText) -> Pol
 /// The first fault of the lines.
 ///
 /// ```
-/// use regatta::loops::own_loop;
+/// use regatta_loops::own_loop;
 ///
 /// let raw = own_loop("mine", "memory owed = 0; owed += dt\nwhile owed >= H { tick 1; owed -= H }").unwrap();
 /// assert!(raw.has_fixed_tick);

@@ -97,9 +97,9 @@ pub struct LoopLab {
     end_ns: i64,
     slowness: u32,
     /// Whether the run resumes on leaving the loop lab.
-    pub(crate) run_goes_on: bool,
+    pub run_goes_on: bool,
     /// Whether the stage was shown without instruments before the loop lab opened.
-    pub(crate) stage_was_alone: bool,
+    pub stage_was_alone: bool,
 }
 
 impl LoopLab {
@@ -148,17 +148,17 @@ impl LoopLab {
     }
 
     /// Lets playback continue with the second trace of the opening by itself, until [`end_opening`](Self::end_opening).
-    pub(crate) fn play_opening(&mut self) {
+    pub fn play_opening(&mut self) {
         self.plays_opening = true;
     }
 
     /// Lets playback stay on the chosen trace.
-    pub(crate) fn end_opening(&mut self) {
+    pub fn end_opening(&mut self) {
         self.plays_opening = false;
     }
 
     /// Shows the body with this index in another scene, from its start.
-    pub(crate) fn show(&mut self, scene: &Scene, body: usize) {
+    pub fn show(&mut self, scene: &Scene, body: usize) {
         self.scene = Arc::new(scene.clone().of_one_body(body));
         if self.scene.refusal(self.method).is_some() {
             let mut fitting = self.scene.fitting_methods();
@@ -204,7 +204,7 @@ impl LoopLab {
     }
 
     /// Shows a loop that has run, or drops the loop if its request is outdated.
-    pub(crate) fn accept(&mut self, found: FoundLoop) {
+    pub fn accept(&mut self, found: FoundLoop) {
         let FoundLoop { request, index, lane } = found;
         if !Arc::ptr_eq(&request, &self.request) {
             return;
@@ -295,7 +295,7 @@ impl LoopLab {
     }
 
     /// Runs the loop of an engine or of a person beside the others, and puts it on the stage.
-    pub(crate) fn run_beside(&mut self, card: &'static PolicyCard) {
+    pub fn run_beside(&mut self, card: &'static PolicyCard) {
         self.engine = Some(card);
         self.lanes.truncate(POLICIES.len());
         self.lanes.push(LoopLane::awaited(card));
@@ -391,7 +391,7 @@ impl LoopLab {
     }
 
     /// Shows the metric with this index in [`FRAME_METRICS`] in the error instrument.
-    pub(crate) fn set_metric(&mut self, index: usize) {
+    pub fn set_metric(&mut self, index: usize) {
         self.metric = index.min(FRAME_METRICS.len() - 1);
     }
 
@@ -433,12 +433,12 @@ impl LoopLab {
     }
 
     /// Switches between overlapping lanes and lanes below each other.
-    pub(crate) fn toggle_overlay(&mut self) {
+    pub fn toggle_overlay(&mut self) {
         self.is_overlaid = !self.is_overlaid;
     }
 
     /// Shows game time over real time, or the moments shown.
-    pub(crate) fn show_game_time(&mut self, shows_it: bool) {
+    pub fn show_game_time(&mut self, shows_it: bool) {
         self.shows_game_time = shows_it;
     }
 

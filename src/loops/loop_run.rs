@@ -20,9 +20,9 @@ pub const MIN_RUN_S: f64 = 10.0;
 /// The scene's script acts before the first step at or after its time.
 ///
 /// ```
-/// use regatta::loops::{LoopRun, policy, trace_card, RefreshRate};
-/// use regatta::scene::{LaneSpec, Scene};
-/// use regatta::sim::integrators::method;
+/// use regatta_loops::{LoopRun, policy, trace_card, RefreshRate};
+/// use regatta_scene::{LaneSpec, Scene};
+/// use regatta_sim::integrators::method;
 ///
 /// let scene = Scene::built_in("spring").expect("a built-in scene");
 /// let rk4 = LaneSpec::plain(method("rk4").expect("a built-in method"));

@@ -6,6 +6,17 @@
 //! steps bodies by a policy, a [`LoopRun`] runs such a lane over a trace, and [`PACING_METRICS`] measure how the motion
 //! looks on the display. Time is counted in whole numbers of a [`TimeBase`]; there is no clock here.
 
+// The rules of a room: see `src/lib.rs` and clippy.toml.
+#![warn(clippy::exit, clippy::print_stderr, clippy::print_stdout)]
+#![cfg_attr(not(test), warn(clippy::disallowed_methods, clippy::disallowed_types))]
+#![warn(clippy::iter_over_hash_type)]
+
+use regatta_measure as measure;
+use regatta_run as run;
+use regatta_scene as scene;
+use regatta_sim as sim;
+use regatta_table as table;
+
 mod advice;
 mod camera;
 mod engines;

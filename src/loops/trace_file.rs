@@ -10,7 +10,6 @@
 //! when they begin, and the trace [reports it](FrameTrace::missing_display).
 
 mod android;
-#[cfg(feature = "serde")]
 mod capture_json;
 mod columns;
 mod durations;
@@ -81,13 +80,8 @@ enum Fault {
         "a log of MSI Afterburner has a sample a second and no times of frames; let RTSS record frame times, or use PresentMon or CapFrameX"
     )]
     Afterburner,
-    #[cfg(not(feature = "serde"))]
-    #[error("JSON of CapFrameX is not read here; export the capture as CSV")]
-    Json,
-    #[cfg(feature = "serde")]
     #[error("this is no capture of CapFrameX: {0}; capture again, or export it as CSV")]
     Json(String),
-    #[cfg(feature = "serde")]
     #[error("frame {number}: {fault}")]
     Frame { number: u64, fault: Box<Fault> },
     #[error("there is a header and no frame of a program below it; capture some frames")]
@@ -165,11 +159,10 @@ pub fn from_table(
 /// Whether JSON is a capture of CapFrameX, which has runs.
 fn is_capture(bytes: &[u8]) -> bool {
     let has = |key: &[u8]| bytes.windows(key.len()).any(|window| window == key);
-    cfg!(not(feature = "serde")) || has(b"\"Runs\"") && !has(b"\"traceEvents\"")
+    has(b"\"Runs\"") && !has(b"\"traceEvents\"")
 }
 
 /// Reads the runs of a JSON capture. Errors name the frame, since the line numbers of JSON are meaningless.
-#[cfg(feature = "serde")]
 fn of_json(
     name: &str,
     bytes: &[u8],
@@ -182,15 +175,6 @@ fn of_json(
         line => at(Fault::Frame { number: line - 1, fault: Box::new(error.fault) }),
     })?;
     Ok(traces.into_iter().map(|trace| trace.written_by("CapFrameX".into())).collect())
-}
-
-#[cfg(not(feature = "serde"))]
-fn of_json(
-    name: &str,
-    _bytes: &[u8],
-    _options: &TableOptions,
-) -> Result<Vec<FrameTrace>, TraceFileError> {
-    Err(TraceFileError { name: name.into(), line: 1, fault: Fault::Json })
 }
 
 fn of_table(

@@ -6,10 +6,10 @@ use std::sync::Arc;
 pub use super::criterion::CriterionMet;
 use super::criterion::{CRITERIA, Criterion};
 use super::judge::{CriterionFinding, FULL_THROTTLE, Judge, horizon_s};
+use super::judged_run::MAX_WORK;
 use super::outcome::Outcome;
 use super::pace::Pace;
 use super::rank::Ranking;
-use super::run::MAX_WORK;
 use super::searches::{
     FACTORS, FINE_FACTORS, PARTS_OF_STRIDE, RatesDown, fine_factor, tried_substeps,
 };

@@ -2,7 +2,7 @@
 
 use super::amplitude::{Trend, amplitude};
 use super::frequency::{FrequencyError, frequency_error};
-use super::run::JudgedRun;
+use super::judged_run::JudgedRun;
 use super::truth::{BodyTruth, Swing};
 use super::verdict::LongTerm;
 use crate::sim::stability::FOREVER_S;
@@ -98,12 +98,12 @@ mod tests {
     use std::sync::Arc;
 
     use super::*;
-    use crate::measure::pace::Pace;
-    use crate::measure::run::{MAX_WORK, Until, follow};
-    use crate::measure::slices::block_on;
-    use crate::measure::verdict::RunFailure;
+    use crate::judged_run::{MAX_WORK, Until, follow};
+    use crate::pace::Pace;
     use crate::scene::{LaneSpec, Scene};
     use crate::sim::integrators::{StepFailure, method};
+    use crate::slices::block_on;
+    use crate::verdict::RunFailure;
 
     /// Returns a run to the end, for a swing that neither grows nor dies.
     fn followed() -> (BodyTruth, JudgedRun) {

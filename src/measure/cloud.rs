@@ -24,7 +24,7 @@ pub use border::CloudBorder;
 use course::{Course, Memory, Subject, copies_of};
 pub use density::{Density, MAX_LINE_PART, PlaneView};
 use lozenges::Lozenges;
-pub(crate) use request::MAX_CLOUDS;
+pub use request::MAX_CLOUDS;
 pub use request::{CloudChoice, CloudPicture, CloudRequest, FoundCloud, LaneCloud, POINTS};
 pub use running::CloudWorker;
 
@@ -257,8 +257,9 @@ impl Cloud {
     /// swing.
     ///
     /// ```
-    /// use regatta::measure::cloud::{Cloud, CloudShape};
-    /// use regatta::prelude::*;
+    /// use regatta_measure::cloud::{Cloud, CloudShape};
+    /// use regatta_scene::LaneSpec;
+    /// use regatta_sim::prelude::*;
     ///
     /// #[derive(Clone)]
     /// struct Buoy;
@@ -276,7 +277,7 @@ impl Cloud {
     /// cloud.advance(300);
     /// // The drag takes e^(-0.3 · 5) of any area.
     /// assert!((cloud.area_ratio().unwrap() - 0.223).abs() < 0.01);
-    /// # Ok::<(), regatta::measure::cloud::NoCloud>(())
+    /// # Ok::<(), regatta_measure::cloud::NoCloud>(())
     /// ```
     ///
     /// # Errors
@@ -392,7 +393,7 @@ impl Cloud {
     /// Measures the cloud at its current tick.
     pub fn measure(&self) -> CloudMeasure {
         let area_ratio = self.area_ratio();
-        let mut hash = Fnv::new();
+        let mut hash = Fnv::default();
         for &number in self.q().iter().chain(self.v()) {
             // The bits of a NaN depend on the processor.
             hash.number(if number.is_nan() { f64::NAN } else { number });

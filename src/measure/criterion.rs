@@ -63,9 +63,7 @@ impl Criterion {
 pub(super) const MAX_STIFFER: f64 = 10.0;
 
 /// The smallest number of substeps with which a method meets a criterion, and the margins of the method.
-#[derive(Clone, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
-#[non_exhaustive]
+#[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct CriterionMet {
     /// Requested tick rate in Hz, at which the criterion is met.
     pub tick_hz: TickRate,
@@ -78,7 +76,7 @@ pub struct CriterionMet {
     /// one](crate::sim::integrators::Method::evaluation_cost), which is the first key of the ranking.
     pub cost_per_s: f64,
     /// Whether the margins have been searched. If a search is expensive, it is done only for cheap methods.
-    #[cfg_attr(feature = "serde", serde(rename = "margins_searched"))]
+    #[serde(rename = "margins_searched")]
     pub are_margins_searched: bool,
     /// Lowest whole tick rate in Hz at which the criterion still holds with the same number of substeps. The search
     /// goes down from the requested rate, rounded up, and the criterion holds at all rates tried on the way. `None` if

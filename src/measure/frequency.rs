@@ -1,6 +1,6 @@
 //! The frequency error of a lane, from the times at which the lane crosses its centre.
 
-use super::run::JudgedRun;
+use super::judged_run::JudgedRun;
 use super::truth::{BodyTruth, Swing};
 use crate::sim::numerics::bisect;
 

@@ -37,14 +37,14 @@ pub struct FutureCurve {
 }
 
 /// Whether a body has too many coordinates for futures.
-pub(crate) fn has_no_futures(of: &LaneBody) -> bool {
+pub fn has_no_futures(of: &LaneBody) -> bool {
     of.coordinates().len() > MAX_COORDINATES || of.stepper.is_beyond_reference()
 }
 
 /// Computes the second after time `t` (s) of a body at a tick rate, under each of `methods` and last in truth. `held`
 /// is the state in which a person holds the body, and `plotted` the index of the coordinate in the moments' states. The
 /// result is empty if the body has halted or has too many coordinates.
-pub(crate) fn futures(
+pub fn futures(
     of: &LaneBody,
     t: f64,
     tick_hz: TickRate,

@@ -6,6 +6,16 @@
 //! anatomy of a tick, and a [`FutureCurve`] is the next second of a body. [`advise`] reports on a custom body. An
 //! [`AnalysisWorker`] does all of this beside a run, in slices.
 
+// The rules of a room: see `src/lib.rs` and clippy.toml.
+#![warn(clippy::exit, clippy::print_stderr, clippy::print_stdout)]
+#![cfg_attr(not(test), warn(clippy::disallowed_methods, clippy::disallowed_types))]
+#![warn(clippy::iter_over_hash_type)]
+
+use regatta_run as run;
+use regatta_scene as scene;
+use regatta_sim as sim;
+use regatta_tools as tools;
+
 mod advice;
 mod amplitude;
 mod bounce_finding;
@@ -21,6 +31,7 @@ mod energy_finding;
 mod frequency;
 mod futures;
 mod judge;
+mod judged_run;
 mod modes;
 mod offset;
 mod one_step;
@@ -28,7 +39,6 @@ mod outcome;
 mod pace;
 mod rank;
 mod report;
-mod run;
 mod searches;
 mod slices;
 mod spin_finding;
@@ -51,13 +61,13 @@ pub use chase_finding::ChaseFinding;
 pub use criterion::{CRITERIA, Criterion, FREQUENCY_TOLERANCE, TOLERANCE, VISIBLE};
 pub use energy_finding::EnergyFinding;
 pub use futures::{FutureCurve, FutureMoment};
-pub(crate) use futures::{futures, has_no_futures};
+pub use futures::{futures, has_no_futures};
 pub use judge::{Judge, MAX_HORIZON_S};
+pub use judged_run::MAX_WORK;
 pub use one_step::{OneStep, Slope};
-pub(crate) use one_step::{one_step, orbit};
+pub use one_step::{one_step, orbit};
 pub use outcome::{Outcome, Severity, Sign};
 pub use report::{Criteria, MethodReport, PassedOver, Recommendation, Report, advise, try_advise};
-pub use run::MAX_WORK;
 pub use spin_finding::SpinFinding;
 pub use stability_map::{Coverage, DampingLine, MapRequest, PointStability, Region, StabilityMap};
 pub use truth::LONG_RUN;

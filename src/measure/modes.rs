@@ -3,8 +3,8 @@
 use super::amplitude::{Measure, Trend};
 use super::change::MotionChange;
 use super::criterion::VISIBLE;
+use super::judged_run::MAX_WORK;
 use super::pace::Pace;
-use super::run::MAX_WORK;
 use super::swing_curve::SwingCurve;
 use super::truth::{BodyTruth, MovedMode, work_of};
 use super::verdict::LongTerm;

@@ -59,12 +59,7 @@ impl OneStep {
 }
 
 /// Returns the anatomy of the tick with this number; `None` if the body has halted.
-pub(crate) fn one_step(
-    body: &LaneBody,
-    spec: LaneSpec,
-    number: u64,
-    tick: Tick,
-) -> Option<OneStep> {
+pub fn one_step(body: &LaneBody, spec: LaneSpec, number: u64, tick: Tick) -> Option<OneStep> {
     if body.halted().is_some() {
         return None;
     }
@@ -110,7 +105,7 @@ fn growth(body: &LaneBody, spec: LaneSpec, Tick { t, h, substeps }: Tick) -> Opt
 
 /// Returns lines through the states with the same energy as `through`, for coordinates from `low` to `high`. The result
 /// is empty if the body has several coordinates or conserves no energy.
-pub(crate) fn orbit(
+pub fn orbit(
     body: &LaneBody,
     t: f64,
     through: [f64; 2],

@@ -5,7 +5,6 @@ use crate::run::race::Halt;
 
 /// The outcome of a run over the horizon, from best to worst.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-#[non_exhaustive]
 pub enum Outcome {
     /// The error is at rounding level.
     Rounding,

@@ -13,8 +13,8 @@ use crate::sim::number::round;
 use crate::sim::{State, System, TickRate, Vector};
 
 /// One value for each [`Criterion`].
-#[derive(Clone, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize), serde(rename_all = "kebab-case"))]
+#[derive(Clone, Debug, PartialEq, serde::Serialize)]
+#[serde(rename_all = "kebab-case")]
 pub struct Criteria<T> {
     /// Value for [`Criterion::Bounded`].
     pub bounded: T,
@@ -41,8 +41,7 @@ impl<T> Criteria<T> {
 }
 
 /// The advice on a body at a tick rate.
-#[derive(Clone, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[derive(Clone, Debug, PartialEq, serde::Serialize)]
 #[non_exhaustive]
 pub struct Report {
     /// Name of the body.
@@ -61,8 +60,7 @@ pub struct Report {
 }
 
 /// The results for one method.
-#[derive(Clone, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[derive(Clone, Debug, PartialEq, serde::Serialize)]
 #[non_exhaustive]
 pub struct MethodReport {
     /// Id of the method.
@@ -74,8 +72,7 @@ pub struct MethodReport {
 }
 
 /// A cheaper method that is not recommended for lack of a reserve.
-#[derive(Clone, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[derive(Clone, Debug, PartialEq, serde::Serialize)]
 #[non_exhaustive]
 pub struct PassedOver {
     /// Id of the method.
@@ -100,17 +97,16 @@ impl fmt::Display for PassedOver {
 }
 
 /// The method recommended for a criterion.
-#[derive(Clone, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[derive(Clone, Debug, PartialEq, serde::Serialize)]
 #[non_exhaustive]
 pub struct Recommendation {
     /// Id of the method.
     pub method: &'static str,
     /// How the method meets the criterion.
-    #[cfg_attr(feature = "serde", serde(flatten))]
+    #[serde(flatten)]
     pub with: CriterionMet,
     /// The cheapest method, if it is passed over for its small reserve.
-    #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Option::is_none"))]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub instead_of: Option<PassedOver>,
 }
 
@@ -153,8 +149,9 @@ impl fmt::Display for Recommendation {
 /// limit](Options::max_work) are counted in evaluations of the acceleration.
 ///
 /// ```
-/// use regatta::prelude::*;
-/// use regatta::sim::integrators::method;
+/// use regatta_measure::advise;
+/// use regatta_scene::Options;
+/// use regatta_sim::prelude::*;
 ///
 /// #[derive(Clone)]
 /// struct Spring;
@@ -169,7 +166,7 @@ impl fmt::Display for Recommendation {
 /// let start = State { q: 1.0, v: 0.0 };
 /// let methods = ["semi-implicit-euler", "velocity-verlet", "rk4"].map(|id| method(id).unwrap());
 /// let options = Options { seconds: 5.0, methods: methods.to_vec(), ..Options::default() };
-/// let report = regatta::advise(&Spring, start, options);
+/// let report = advise(&Spring, start, options);
 /// println!("{report}");
 /// let bounded = report.recommended.bounded.expect("some method is bounded");
 /// assert_eq!(bounded.with.substeps, 1);

@@ -63,7 +63,9 @@ pub struct MapRequest {
 }
 
 impl MapRequest {
-    pub(crate) fn new(
+    /// Requests the map of a parameter of a body, by their indices, around these values of its parameters. Each method
+    /// has its index in the list.
+    pub fn new(
         (body, parameter): (usize, usize),
         opened: &SceneBody,
         values: &[f64],

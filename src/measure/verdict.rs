@@ -11,7 +11,6 @@ use crate::run::race::StopReason;
 use crate::sim::bodies::Truth;
 use crate::sim::integrators::StepFailure;
 
-#[cfg(feature = "serde")]
 mod schema;
 #[cfg(test)]
 mod tests;
@@ -176,7 +175,7 @@ pub struct LongTerm {
 
 /// The verdict on a lane over a horizon, displayed as one line.
 ///
-/// With the feature `serde`, the verdict serializes as one flat object, which the commands write too. In this object,
+/// The verdict serializes as one flat object, which the commands write too. In this object,
 /// `word` is the id of the outcome, `text` the line, and `quantity`, `value` and `unit` the number in the line. A field
 /// without a meaning is null.
 #[derive(Clone, Debug, PartialEq)]
@@ -273,7 +272,7 @@ impl Verdict {
     }
 
     /// Returns a sort key. The larger the key, the worse the verdict.
-    pub(crate) fn badness(&self) -> (Outcome, f64) {
+    pub fn badness(&self) -> (Outcome, f64) {
         (self.outcome(), self.error().unwrap_or(f64::INFINITY))
     }
 

@@ -5,8 +5,8 @@ use std::sync::Arc;
 
 use super::advice::{Adviser, MethodAdvice, criterion_to_take, recommended};
 use super::judge::{Judge, horizon_s};
+use super::judged_run::MAX_WORK;
 use super::pace::Pace;
-use super::run::MAX_WORK;
 use super::slices::{Meter, Sliced};
 use super::stability_map::{MapRequest, MapWork, StabilityMap};
 use super::verdict::Verdict;
@@ -33,24 +33,26 @@ impl AdvisedBodies {
     }
 }
 
-/// The verdicts and the advice that a studio requests. Two requests of one [`Studio`](crate::studio::Studio) are
+/// The verdicts and the advice that a studio requests. Two requests of one `Studio` are
 /// equal if they have the same answer.
 #[derive(Clone, Debug)]
 pub struct AnalysisRequest {
-    pub(crate) scene: Arc<Scene>,
+    /// The scene.
+    pub scene: Arc<Scene>,
     /// The methods to judge, each with the lane from whose state it is judged; `None` for the true state.
-    pub(crate) entries: Vec<(LaneSpec, Option<LaneId>)>,
+    pub entries: Vec<(LaneSpec, Option<LaneId>)>,
     /// Number of lanes, from the first, that share the work limit of a bounded worker. The other lanes get the rest.
-    pub(crate) first: usize,
-    pub(crate) tick_hz: TickRate,
+    pub first: usize,
+    /// Tick rate of the judged run.
+    pub tick_hz: TickRate,
     /// Edits to the judged run.
-    pub(crate) by_hand: Interventions,
+    pub by_hand: Interventions,
     /// Edits to the run that advice is about.
-    pub(crate) advised: Interventions,
+    pub advised: Interventions,
     /// The bodies to give advice on, if advice is requested.
-    pub(crate) advice: Option<AdvisedBodies>,
+    pub advice: Option<AdvisedBodies>,
     /// The stability map, if a map is requested.
-    pub(crate) map: Option<MapRequest>,
+    pub map: Option<MapRequest>,
 }
 
 impl PartialEq for AnalysisRequest {
@@ -62,7 +64,7 @@ impl PartialEq for AnalysisRequest {
 
 impl AnalysisRequest {
     /// Whether the request is about this instance of the scene. An equal copy counts as another scene.
-    pub(crate) fn is_of(&self, scene: &Arc<Scene>) -> bool {
+    pub fn is_of(&self, scene: &Arc<Scene>) -> bool {
         Arc::ptr_eq(&self.scene, scene)
     }
 
@@ -80,20 +82,23 @@ impl AnalysisRequest {
 /// The verdicts and the advice found up to now.
 #[derive(Clone, Debug)]
 pub struct Findings {
-    pub(crate) request: AnalysisRequest,
+    /// The request that is answered.
+    pub request: AnalysisRequest,
     /// The last verdict on each method of the list. A verdict may answer an earlier request about the same scene.
-    pub(crate) verdicts: Vec<Option<Verdict>>,
+    pub verdicts: Vec<Option<Verdict>>,
     /// Number of verdicts, from the first, that answer this request.
-    pub(crate) judged: usize,
-    pub(crate) advice: Option<Advice>,
-    pub(crate) map: Option<StabilityMap>,
+    pub judged: usize,
+    /// The advice, if it is requested.
+    pub advice: Option<Advice>,
+    /// The stability map, if it is requested.
+    pub map: Option<StabilityMap>,
     /// Whether the request is answered in full.
     pub(super) complete: bool,
 }
 
 impl Findings {
     /// Whether these findings answer `request` in full. They may cover more lanes.
-    pub(crate) fn answer(&self, request: &AnalysisRequest) -> bool {
+    pub fn answer(&self, request: &AnalysisRequest) -> bool {
         let are_judged = self.request.entries.starts_with(&request.entries);
         self.complete && are_judged && self.request.is_alike(request)
     }
@@ -248,7 +253,7 @@ impl AnalysisWorker {
     }
 
     /// Returns the same worker with a work limit. It does not judge the lanes beyond the limit.
-    pub(crate) fn bounded(self) -> Self {
+    pub fn bounded(self) -> Self {
         Self { max_work: MAX_WORK_OF_ALL, ..self }
     }
 

@@ -4,7 +4,7 @@ use std::fmt::{Display, Write};
 
 /// Returns a line of comma-separated values with its line end. Values that contain commas, quotes or line ends are
 /// quoted.
-pub(crate) fn csv_row(values: &[&dyn Display]) -> String {
+pub fn csv_row(values: &[&dyn Display]) -> String {
     let mut row = String::new();
     for (column, value) in values.iter().enumerate() {
         let start = row.len() + usize::from(column > 0);

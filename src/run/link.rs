@@ -313,8 +313,8 @@ fn kept_ticks(scene: &Scene) -> Vec<u64> {
 /// If the run's text is longer than a scene file may be.
 ///
 /// ```
-/// use regatta::run::link;
-/// use regatta::scene::Scene;
+/// use regatta_run::link;
+/// use regatta_scene::Scene;
 ///
 /// let scene = Scene::built_in("spring").expect("a built-in scene");
 /// let link = link::link_to_run(&scene).expect("a short scene");
@@ -416,7 +416,7 @@ pub fn text(written: &str) -> Result<String, LinkError> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::run::Session;
+    use crate::Session;
     use crate::scene::Action;
 
     #[test]

@@ -19,7 +19,7 @@ pub struct Menu {
 
 impl Menu {
     /// Creates the menu of a race at its start.
-    pub(crate) fn new(race: &Race) -> Self {
+    pub fn new(race: &Race) -> Self {
         let mut menu = Self { specs: race.methods().to_vec(), lane_entries: Vec::new() };
         for entrant in race.entrants() {
             // Identical lanes get separate entries while any are free.
@@ -109,7 +109,7 @@ impl Menu {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::run::Observations;
+    use crate::Observations;
     use crate::scene::{Action, Scene};
     use crate::sim::integrators::method;
 

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use crate::run::race::{Chase, LaneBody};
+use crate::race::{Chase, LaneBody};
 use crate::sim::bodies::{Coordinate, Truth};
 
 mod spin;
@@ -354,11 +354,11 @@ fn largest_difference(a: impl Iterator<Item = f64>, b: impl Iterator<Item = f64>
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::run::{Lane, Race};
     use crate::scene::{Action, LaneSpec, Scene, SceneBody};
     use crate::sim::Solver;
     use crate::sim::bodies::{Input, kind};
     use crate::sim::integrators::method;
+    use crate::{Lane, Race};
 
     fn metric(id: &str) -> &'static Metric {
         METRICS.iter().find(|metric| metric.id == id).unwrap()

@@ -7,6 +7,15 @@
 //! Each tick updates the [`METRICS`]. A [`trace`] tabulates them, and [`diff`] compares two such tables. A [`link`]
 //! is a run in an address.
 
+// The rules of a room: see `src/lib.rs` and clippy.toml.
+#![warn(clippy::exit, clippy::print_stderr, clippy::print_stdout)]
+#![cfg_attr(not(test), warn(clippy::disallowed_methods, clippy::disallowed_types))]
+#![warn(clippy::iter_over_hash_type)]
+
+use regatta_scene as scene;
+use regatta_sim as sim;
+use regatta_table as table;
+
 use std::mem::{replace, swap};
 
 use crate::scene::Action;
@@ -17,7 +26,6 @@ use race::{Author, Checkpoints, Mode, Observer, PerformedAction, TimeScale};
 use undo::{Change, Replaced, ReplacedFuture, UndoStack};
 
 mod course;
-#[cfg(any(feature = "cli", feature = "view"))]
 mod csv_row;
 pub mod diff;
 mod event;
@@ -33,19 +41,17 @@ mod start;
 pub mod trace;
 mod undo;
 
-#[cfg(any(feature = "cli", feature = "view"))]
-pub(crate) use csv_row::csv_row;
+pub use csv_row::csv_row;
 pub use event::{Event, EventKind};
 pub use menu::{Menu, MenuIndex};
 pub use metrics::{METRICS, Metric, Scale, Unit, energy_gained_j, energy_gained_percent, energy_j};
 pub use observations::Observations;
 pub use race::{Journal, Lane, Race, Ticker};
-#[cfg(feature = "cli")]
-pub(crate) use recording::MAX_CHECKS;
-pub(crate) use recording::with_menu_lanes as recording_among;
+pub use recording::MAX_CHECKS;
+pub use recording::with_menu_lanes as recording_among;
 pub use recording::{Reached, RecordingError, Replay, text as recording_text};
 pub use session::Session;
-pub(crate) use start::StartSettings;
+pub use start::StartSettings;
 
 /// Default memory limit in bytes for snapshots and the drawn pasts of kept runs.
 pub const SNAPSHOT_BYTES: usize = 64 << 20;
@@ -86,7 +92,7 @@ impl Run {
     }
 
     /// Creates a run that starts with these settings.
-    pub(crate) fn starting_with(next: StartSettings) -> Self {
+    pub fn starting_with(next: StartSettings) -> Self {
         let session = next.session();
         Self::of(next, session)
     }
@@ -102,11 +108,11 @@ impl Run {
         &self.course.session
     }
     /// Returns the settings of the next restart, which are those of this start, plus a person's edits since.
-    pub(crate) fn next(&self) -> &StartSettings {
+    pub fn next(&self) -> &StartSettings {
         &self.next
     }
     /// Returns the settings of the next restart, for changes that undo skips.
-    pub(crate) fn next_mut(&mut self) -> &mut StartSettings {
+    pub fn next_mut(&mut self) -> &mut StartSettings {
         &mut self.next
     }
     /// Returns the race at tick 0, before any action, without its journal.
@@ -132,7 +138,7 @@ impl Run {
         self.course.seen.menu()
     }
     /// Returns the checkpoints from which verdicts and clouds restart.
-    pub(crate) fn checkpoints(&self) -> &Checkpoints {
+    pub fn checkpoints(&self) -> &Checkpoints {
         self.course.seen.checkpoints()
     }
     /// Returns the last tick reached.
@@ -200,7 +206,7 @@ impl Run {
     }
 
     /// Performs the journal's pending actions at the present tick.
-    pub(crate) fn catch_up(&mut self, observer: &mut dyn Observer) {
+    pub fn catch_up(&mut self, observer: &mut dyn Observer) {
         self.course.catch_up(observer);
     }
 
@@ -221,7 +227,7 @@ impl Run {
 
     /// Whether [`act_within`](Self::act_within) replaces the only action of the open change by this one, because both
     /// set the same quantity at the present tick.
-    pub(crate) fn replaces_open_action(&self, action: &Action) -> bool {
+    pub fn replaces_open_action(&self, action: &Action) -> bool {
         let (race, Some(change)) = (self.race(), self.changes.open()) else { return false };
         let Replaced::Future(ReplacedFuture { tick, rows, .. }) = &change.replaced else {
             return false;
@@ -234,7 +240,7 @@ impl Run {
     /// Performs an action as part of the open change, or of a new one. In a drag while time waits, the last value
     /// replaces the earlier ones, and a drag that returns to the first value leaves no change. Edits also apply to the
     /// next restart. Returns `None` if the action changes nothing.
-    pub(crate) fn act_within(
+    pub fn act_within(
         &mut self,
         action: Action,
         observer: &mut dyn Observer,
@@ -267,11 +273,7 @@ impl Run {
 
     /// Changes a setting of the next start, as part of the open change, or of a new one. Both `set` and this function
     /// return whether a setting changed.
-    pub(crate) fn set_next(
-        &mut self,
-        what: &str,
-        set: impl FnOnce(&mut StartSettings) -> bool,
-    ) -> bool {
+    pub fn set_next(&mut self, what: &str, set: impl FnOnce(&mut StartSettings) -> bool) -> bool {
         let before = self.next.clone();
         let is_changed = set(&mut self.next);
         if let Some(Change { next, replaced: Replaced::Nothing, .. }) = self.changes.open()
@@ -288,7 +290,7 @@ impl Run {
 
     /// Applies `set` to the next start's settings and begins a run with these. With a description in `kept`,
     /// [`Run::undo`] can bring back the present run; otherwise the present run is lost.
-    pub(crate) fn restart(&mut self, kept: Option<&str>, set: impl FnOnce(&mut StartSettings)) {
+    pub fn restart(&mut self, kept: Option<&str>, set: impl FnOnce(&mut StartSettings)) {
         let before = self.next.clone();
         set(&mut self.next);
         self.next.settle();
@@ -304,12 +306,12 @@ impl Run {
     }
 
     /// Closes the open change, so that undo handles the next edit separately.
-    pub(crate) fn close_change(&mut self) {
+    pub fn close_change(&mut self) {
         self.changes.close();
     }
 
     /// Clears the undo stack, so that all edits up to now become part of the start.
-    pub(crate) fn forget_changes(&mut self) {
+    pub fn forget_changes(&mut self) {
         self.changes = UndoStack::default();
     }
 

@@ -377,7 +377,7 @@ impl Past {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::run::Observations;
+    use crate::Observations;
     use crate::scene::{LaneSpec, Scene};
     use crate::sim::integrators::method;
 

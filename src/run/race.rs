@@ -14,13 +14,13 @@ use crate::sim::{Solver, State, Stepper, System, TickRate, Vector};
 pub use crate::scene::TimeScale;
 pub use chase::Chase;
 pub use equal_cost::{equal_cost, lanes_that_race};
-pub(crate) use extent::Extent;
+pub use extent::Extent;
 pub use interpolation::Interpolation;
-pub(crate) use interpolation::{hermite, slope};
-pub(crate) use intervention::Interventions;
+pub use interpolation::{hermite, slope};
+pub use intervention::Interventions;
 pub(crate) use journal::JournalTail;
 pub use journal::{Author, Journal, JournalRow};
-pub(crate) use lane::advance_checked;
+pub use lane::advance_checked;
 pub use lane::{ESCAPE, Halt, Lane, LaneBody, Resumed, ResumedFrom};
 pub use ticker::{StopReason, Ticked, Ticker};
 
@@ -37,7 +37,7 @@ mod run_start;
 mod ticker;
 
 pub use observer::{Observer, PerformedAction, Switch};
-pub(crate) use run_start::Checkpoints;
+pub use run_start::Checkpoints;
 
 /// Whether one method runs at a time, or all of them at once.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -102,7 +102,9 @@ impl Race {
     /// method in the options.
     ///
     /// ```
-    /// use regatta::prelude::*;
+    /// use regatta_run::Race;
+    /// use regatta_scene::Options;
+    /// use regatta_sim::prelude::*;
     ///
     /// #[derive(Clone)]
     /// struct Spring;
@@ -141,8 +143,8 @@ impl Race {
     /// `regatta capture --race` draws this race:
     ///
     /// ```
-    /// use regatta::run::Race;
-    /// use regatta::scene::Scene;
+    /// use regatta_run::Race;
+    /// use regatta_scene::Scene;
     ///
     /// let scene = Scene::built_in("stiff").expect("a built-in scene");
     /// let mut race = Race::of_scene(&scene);
@@ -157,7 +159,7 @@ impl Race {
     }
 
     /// Returns the same race at its start, with this script at the present tick rate.
-    pub(crate) fn with_script(self, script: &[Scripted]) -> Self {
+    pub fn with_script(self, script: &[Scripted]) -> Self {
         Self { journal: Journal::of_script(script, self.tick_hz()), ..self }
     }
 
@@ -207,7 +209,7 @@ impl Race {
     }
 
     /// Returns the same race at its start, at this tick rate and without its script.
-    pub(crate) fn at_rate(self, tick_hz: TickRate) -> Self {
+    pub fn at_rate(self, tick_hz: TickRate) -> Self {
         Self { piece: Piece::first(tick_hz), journal: Journal::default(), ..self }
     }
 
@@ -280,7 +282,7 @@ impl Race {
         &self.journal
     }
     /// Returns the number of journal rows already performed.
-    pub(crate) fn done(&self) -> usize {
+    pub fn done(&self) -> usize {
         self.done
     }
 
@@ -333,7 +335,7 @@ impl Race {
     /// Returns a hash of the tick and of the state bits in every lane, without the truth. Equal physics has equal
     /// hashes on every platform and in every build. The hash is 64-bit FNV-1a over little-endian words, with -0 as 0.
     pub fn state_hash(&self) -> u64 {
-        let mut hash = Fnv::new();
+        let mut hash = Fnv::default();
         hash.word(self.tick);
         self.entrants.iter().for_each(|entrant| hash_lane(&mut hash, &entrant.lane));
         hash.0
@@ -342,7 +344,7 @@ impl Race {
     /// Returns for each lane the [`Race::state_hash`] of a race of this lane alone.
     pub fn lane_hashes(&self) -> impl Iterator<Item = u64> {
         self.entrants.iter().map(|entrant| {
-            let mut hash = Fnv::new();
+            let mut hash = Fnv::default();
             hash.word(self.tick);
             hash_lane(&mut hash, &entrant.lane);
             hash.0
@@ -409,5 +411,44 @@ mod tests {
         let swing = libm::cos(std::f64::consts::TAU * race.t());
         let truth = race.truth().bodies()[0].stepper.q()[0];
         assert!((truth - swing).abs() < 1e-11, "{truth}, {swing}");
+    }
+
+    /// Returns a scene at 1 Hz, at 100 Hz from tick 5 on, and at 2 Hz from tick 45 on.
+    fn scene_of_three_rates() -> Scene {
+        let text = "title = 'x'\ntick_hz = 1\nseconds = 9\n[[spring]]\nmass_kg = 1\n\
+                    stiffness_n_per_m = 1\n[[command]]\nat_s = 5\ntick_hz = 100\n\
+                    [[command]]\nat_s = 5.4\ntick_hz = 2\n[[command]]\nat_s = 5.9\nkick = 1\n";
+        Scene::parse("x.toml", text).unwrap()
+    }
+
+    #[test]
+    fn seconds_are_counted_across_the_rates_of_a_script() {
+        let race = Race::of_scene(&scene_of_three_rates());
+        for (seconds, tick) in [
+            (0.0, 0),
+            (0.4, 0),
+            (4.4, 4),
+            (4.5, 5),
+            (5.0, 5),
+            (5.2, 25),
+            (5.254, 30),
+            (5.4, 45),
+            (5.6, 45),
+            (5.65, 46),
+            (9.4, 53),
+        ] {
+            assert_eq!(race.nearest_tick(seconds), tick, "{seconds} s");
+        }
+    }
+
+    #[test]
+    fn the_tick_is_the_same_seen_from_any_tick_before_it() {
+        let mut race = Race::of_scene(&scene_of_three_rates());
+        for tick in 0..60 {
+            assert_eq!(race.tick(), tick);
+            assert_eq!(race.nearest_tick(9.4), 53.max(tick));
+            assert_eq!(race.nearest_tick(race.t()), tick);
+            race.step(&mut ());
+        }
     }
 }

@@ -10,7 +10,7 @@ use crate::scene::{Action, Check, LaneId, LaneSpec, MAX_FILE_BYTES, MIN_SECONDS,
 
 /// Maximum number of checks of a recording, which keeps the file readable. A long run has fewer than one check per
 /// second.
-pub(crate) const MAX_CHECKS: usize = 8_000;
+pub const MAX_CHECKS: usize = 8_000;
 
 /// The reason why a run cannot be recorded.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -104,7 +104,7 @@ impl Run {
 /// Returns a solo recording with its lane among `lanes`, so that the menu offers the same methods as before. The
 /// recording opens with its own method, and its script and checks refer to that lane. If `lanes` has another spec for
 /// its method, the recording stays unchanged.
-pub(crate) fn with_menu_lanes(recording: Scene, lanes: &[LaneSpec]) -> Scene {
+pub fn with_menu_lanes(recording: Scene, lanes: &[LaneSpec]) -> Scene {
     let ([flown], false) = (&recording.lanes[..], recording.opens_as_race) else {
         return recording;
     };

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use super::race::{Journal, Mode, Observer, Race};
-use crate::run::MenuIndex;
+use crate::MenuIndex;
 use crate::scene::{Action, Scene};
 
 /// A running scene, without a clock, a picture or a viewer.
@@ -19,8 +19,8 @@ impl Session {
     /// Creates the race of all the scene's lanes, at its start, with the scene's script.
     ///
     /// ```
-    /// use regatta::run::Session;
-    /// use regatta::scene::{Action, Scene};
+    /// use regatta_run::Session;
+    /// use regatta_scene::{Action, Scene};
     ///
     /// let scene = Scene::built_in("spring").expect("a built-in scene");
     /// let mut session = Session::racing(scene.into());
@@ -51,7 +51,7 @@ impl Session {
     }
 
     /// Returns the same run before its first tick, with all its actions pending.
-    pub(crate) fn before_its_first_tick(&self) -> Self {
+    pub fn before_its_first_tick(&self) -> Self {
         let mut race = self.start().clone();
         race.set_journal(self.journal().clone());
         Self { race, ..self.clone() }

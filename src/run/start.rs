@@ -13,29 +13,31 @@ use crate::sim::integrators::Method;
 
 /// The settings of the next restart. They include a person's choices, but no effects of a script.
 #[derive(Clone, Debug)]
-pub(crate) struct StartSettings {
+pub struct StartSettings {
     /// The scene as it was opened.
-    pub(crate) opened: Arc<Scene>,
+    pub opened: Arc<Scene>,
     /// The scene with the person's parameters and length.
-    pub(crate) scene: Arc<Scene>,
+    pub scene: Arc<Scene>,
     /// The methods with the person's substeps and tolerances.
-    pub(crate) list: Vec<LaneSpec>,
-    pub(crate) mode: Mode,
+    pub list: Vec<LaneSpec>,
+    /// Solo or a race.
+    pub mode: Mode,
     /// Indices in `list` of a race's lanes.
     lanes: Vec<MenuIndex>,
     /// The methods to which a person has switched lanes of the race, which keep their entries until the restart. Each
     /// is with the lane's index.
     given: Vec<(usize, LaneSpec)>,
     /// Index in `list` of the solo method, which also joins a race.
-    pub(crate) entry: MenuIndex,
-    pub(crate) tick_hz: TickRate,
+    pub entry: MenuIndex,
+    /// Tick rate at the start.
+    pub tick_hz: TickRate,
     /// The lanes before equal cost was switched on; `None` while equal cost is off.
-    pub(crate) before_equal_cost: Option<Vec<(LaneId, LaneSpec)>>,
+    pub before_equal_cost: Option<Vec<(LaneId, LaneSpec)>>,
 }
 
 impl StartSettings {
     /// Returns the settings of an unedited scene, which opens solo under its opening method.
-    pub(crate) fn of(scene: Scene) -> Self {
+    pub fn of(scene: Scene) -> Self {
         let scene = Scene { lanes: lanes_that_race(&scene), equal_cost: false, ..scene };
         let opens_with = |spec: &LaneSpec| Some(spec.method) == scene.opening_method;
         let entry = scene.lanes.iter().position(opens_with).unwrap_or(0);
@@ -69,7 +71,7 @@ impl StartSettings {
 
     /// Adds a person's own method to the race, in place of one with the same id, and selects it. Returns whether the
     /// race has room for the method's lane.
-    pub(crate) fn race_own(&mut self, method: &'static Method) -> bool {
+    pub fn race_own(&mut self, method: &'static Method) -> bool {
         let spec = LaneSpec::plain(method);
         let known = self.list.iter().position(|listed| listed.method.id == method.id);
         if known.is_none() && self.scene.lanes.len() >= MAX_LANES {
@@ -96,7 +98,7 @@ impl StartSettings {
     }
 
     /// Leaves only the methods with these ids in the race. The first is also the solo method.
-    pub(crate) fn race_only(&mut self, ids: &[&str]) {
+    pub fn race_only(&mut self, ids: &[&str]) {
         let listed = |id: &&str| self.list.iter().position(|spec| spec.method.id == *id);
         self.lanes = ids.iter().filter_map(listed).collect();
         self.entry = self.lanes.first().copied().unwrap_or(self.entry);
@@ -133,7 +135,7 @@ impl StartSettings {
     }
 
     /// Sets the scene's length (s), if the length is in the allowed range. Returns whether the length changed.
-    pub(crate) fn set_seconds(&mut self, seconds: f64) -> bool {
+    pub fn set_seconds(&mut self, seconds: f64) -> bool {
         let changes =
             (MIN_SECONDS..=MAX_SECONDS).contains(&seconds) && seconds != self.scene.seconds;
         if changes {
@@ -144,7 +146,7 @@ impl StartSettings {
 
     /// Sets a parameter that acts at the start, if the value is in range and fits the other values. Returns whether the
     /// parameter changed.
-    pub(crate) fn set(&mut self, body: usize, parameter: usize, value: f64) -> bool {
+    pub fn set(&mut self, body: usize, parameter: usize, value: f64) -> bool {
         let SceneBody { kind, values, .. } = &self.scene.bodies[body];
         if values[parameter] != value
             && let Ok(values) = edited_values(kind, values, parameter, value)

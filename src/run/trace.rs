@@ -6,7 +6,7 @@ use csv::ByteRecord;
 
 use super::race::LaneBody;
 use super::{METRICS, Race, Session};
-use crate::run::diff::{NotComparable, Records};
+use crate::diff::{NotComparable, Records};
 use crate::scene::Scene;
 use crate::sim::Solver;
 
@@ -63,7 +63,7 @@ pub fn each_row<E>(
 }
 
 /// Returns the id of a lane's method; for a body of the truth, the id of its kind of truth.
-pub(crate) fn method_id(solver: Solver, body: &LaneBody) -> &'static str {
+pub fn method_id(solver: Solver, body: &LaneBody) -> &'static str {
     solver.method().map_or(body.truth().id(), |method| method.id)
 }
 

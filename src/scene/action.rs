@@ -10,10 +10,9 @@ use crate::sim::{Stepper, TickRate};
 /// An action on a run at a tick. It states the new value rather than a change, so that performing it twice has the same
 /// effect as once; only a kick adds up.
 #[derive(Clone, Debug, PartialEq)]
-#[non_exhaustive]
 pub enum Action {
-    /// In solo, puts the bodies under this method, with the substeps and the tolerance that the method has [at the
-    /// start](crate::run::Race::methods). In a race it does nothing, because each lane keeps its method.
+    /// In solo, puts the bodies under this method, with the substeps and the tolerance that the method has at the
+    /// start. In a race it does nothing, because each lane keeps its method.
     Method(&'static Method),
     /// Puts a lane under this method, with these substeps and this tolerance.
     Lane {
@@ -78,7 +77,7 @@ pub enum Action {
 
 impl Action {
     /// Returns the tick rate that the action sets, if it sets one.
-    pub(crate) fn tick_hz(&self) -> Option<TickRate> {
+    pub fn tick_hz(&self) -> Option<TickRate> {
         match *self {
             Action::TickHz(tick_hz) => Some(tick_hz),
             _ => None,
@@ -86,7 +85,7 @@ impl Action {
     }
 
     /// Whether the action changes the body at this index of the scene, provided that the body accepts the action.
-    pub(crate) fn acts_on(&self, body: usize) -> bool {
+    pub fn acts_on(&self, body: usize) -> bool {
         match self {
             Action::Set { body: changed, .. }
             | Action::Place { body: changed, .. }
@@ -96,7 +95,7 @@ impl Action {
     }
 
     /// Applies the action to the `stepper` of a body that it [acts on](Self::acts_on), at time `t` (s).
-    pub(crate) fn apply_to(&self, stepper: &mut dyn Stepper, t: f64) {
+    pub fn apply_to(&self, stepper: &mut dyn Stepper, t: f64) {
         match self {
             Action::Set { parameter, value, .. } => {
                 stepper.set_parameter(t, *parameter, *value);
@@ -127,7 +126,7 @@ impl Action {
 
     /// Names the quantity of `scene` that the action changes, for people. For a parameter, the text includes the new
     /// value.
-    pub(crate) fn in_words(&self, scene: &Scene) -> String {
+    pub fn in_words(&self, scene: &Scene) -> String {
         let &Action::Set { body, parameter, value } = self else { return self.noun().into() };
         let parameter = &scene.bodies[body].kind.parameters[parameter];
         let words = format!("{} {} {}", parameter.quantity(), round(value, 6), parameter.unit);
@@ -135,7 +134,7 @@ impl Action {
     }
 
     /// Returns a noun for the action, for people.
-    pub(crate) fn noun(&self) -> &'static str {
+    pub fn noun(&self) -> &'static str {
         match self {
             Action::Method(_) | Action::Lane { .. } => "the switch",
             Action::Substeps { .. } => "the substeps",
@@ -152,7 +151,7 @@ impl Action {
     }
 
     /// Returns the control that the action sets, if it sets one.
-    pub(crate) fn control(&self) -> Option<Control> {
+    pub fn control(&self) -> Option<Control> {
         match *self {
             Action::Method(_)
             | Action::Lane { .. }
@@ -169,7 +168,7 @@ impl Action {
     }
 
     /// Whether both actions set the same quantity. In one drag, the later of them then replaces the earlier one.
-    pub(crate) fn sets_same(&self, other: &Self) -> bool {
+    pub fn sets_same(&self, other: &Self) -> bool {
         match (self, other) {
             (Action::Place { body, .. }, Action::Place { body: other, .. }) => body == other,
             (Action::Lane { lane, .. }, Action::Lane { lane: other, .. })
@@ -187,17 +186,27 @@ impl Action {
 
 /// A value that scripts and people can set. Once a person has set it, the script leaves it alone.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Control {
+pub enum Control {
+    /// The method in solo.
     Method,
+    /// The tick rate.
     TickRate,
+    /// The throttle of the steered bodies.
     Throttle,
+    /// The rudder of the steered bodies.
     Rudder,
-    Parameter { body: usize, parameter: usize },
+    /// A parameter of a body.
+    Parameter {
+        /// Index of the body.
+        body: usize,
+        /// Index of the parameter.
+        parameter: usize,
+    },
 }
 
 impl Control {
     /// Returns the control's name for people.
-    pub(crate) fn name(self) -> &'static str {
+    pub fn name(self) -> &'static str {
         match self {
             Control::Method => "method",
             Control::TickRate => "tick rate",

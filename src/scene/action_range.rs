@@ -1,8 +1,8 @@
 //! Checks that a scene file can express an action, so that every recording of a run can be read back.
 
 use super::{MAX_COORDINATE, MAX_SUBSTEPS, TOLERANCES};
-use crate::scene::{Action, LaneSpec, Swing};
 use crate::sim::bodies::MAX_VALUE;
+use crate::{Action, LaneSpec, Swing};
 
 impl Action {
     /// Returns the action with throttle and rudder clamped to -1 to 1. `None` if a number is out of its range, because
@@ -30,7 +30,7 @@ impl Action {
 
 impl LaneSpec {
     /// Whether the lane's numbers are in their ranges and its method accepts them.
-    pub(crate) fn is_in_range(&self) -> bool {
+    pub fn is_in_range(&self) -> bool {
         let Self { method, substeps, tolerance, joint, .. } = self;
         let takes = |given: f64| {
             method.tolerance.is_some() && (TOLERANCES.0..=TOLERANCES.1).contains(&given)

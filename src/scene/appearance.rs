@@ -18,13 +18,13 @@ mod node_lines;
 pub(super) use node_lines::NodeLine;
 
 /// Draws a system at these coordinates. The author of the drawing knows the system's type.
-pub(crate) type Drawing = dyn Fn(&dyn Any, &[f64]) -> Vec<Mark> + Send + Sync;
+pub type Drawing = dyn Fn(&dyn Any, &[f64]) -> Vec<Mark> + Send + Sync;
 
 /// The drawing of a scene's body. By default a body has the usual look of its kind.
 #[derive(Default)]
 pub struct Appearance {
     /// The drawing by a custom body's author; `None` for the usual look.
-    pub(crate) drawing: Option<Box<Drawing>>,
+    pub drawing: Option<Box<Drawing>>,
     /// The last computed preview, with the parameter values that it belongs to.
     preview: Mutex<Option<(Vec<f64>, Arc<Preview>)>>,
 }
@@ -37,26 +37,26 @@ impl fmt::Debug for Appearance {
 
 /// The range of a body's motion in its first seconds, found by a short simulation.
 #[derive(Debug)]
-pub(crate) struct Preview {
+pub struct Preview {
     /// Smallest and largest value of each coordinate; empty for a net.
-    pub(crate) ranges: Vec<(f64, f64)>,
+    pub ranges: Vec<(f64, f64)>,
     /// Index of the coordinate that moves farthest.
-    pub(crate) farthest: usize,
+    pub farthest: usize,
     /// Lower left and upper right corner of the rectangle around the nodes of a net, or around the places of a law.
-    pub(crate) corners: [DVec2; 2],
+    pub corners: [DVec2; 2],
     /// The springs of a net; empty for other bodies.
-    pub(crate) springs: Springs,
+    pub springs: Springs,
 }
 
 /// The springs of a net, as drawn.
 #[derive(Debug, Default)]
-pub(crate) struct Springs {
+pub struct Springs {
     /// Lines through the nodes.
-    pub(crate) lines: Vec<NodeLine>,
+    pub lines: Vec<NodeLine>,
     /// Places of the fixed nodes.
-    pub(crate) fixed: Vec<DVec2>,
+    pub fixed: Vec<DVec2>,
     /// Length of the shortest spring at the start, in metres.
-    pub(crate) shortest: f64,
+    pub shortest: f64,
 }
 
 /// Relative difference by which a range must be larger to count as wider, because mirrored nodes differ by rounding.
@@ -73,7 +73,7 @@ impl Appearance {
     ///
     /// # Panics
     /// If the kind is in the table of bodies.
-    pub(crate) fn preview(&self, kind: &Kind, body: &dyn Any) -> Arc<Preview> {
+    pub fn preview(&self, kind: &Kind, body: &dyn Any) -> Arc<Preview> {
         let (law, custom) = (body.downcast_ref::<Law>(), body.downcast_ref::<Custom>());
         let values = law.map(Law::values).or(custom.map(Custom::values)).unwrap_or_default();
         // The lock is free during the simulation, because a large net waits for other threads, which may want a preview
@@ -189,38 +189,3 @@ const MAX_EVALUATIONS: u64 = 30_000;
 
 /// A coordinate has run away if it exceeds its largest magnitude in the first second by this factor.
 const RUNAWAY: f64 = 1e4;
-
-#[cfg(test)]
-mod tests {
-    use std::sync::Arc;
-
-    use crate::run::race::Lane;
-    use crate::scene::Scene;
-    use crate::sim::Solver;
-
-    fn ranges(scene: &Scene) -> Vec<(f64, f64)> {
-        let lane = Lane::new(scene, Solver::Truth, 1);
-        lane.bodies()[0].preview().ranges.clone()
-    }
-
-    #[test]
-    fn the_extent_of_a_built_in_scene_is_computed_once_for_all_copies() {
-        for name in ["rope", "jump"] {
-            let preview = || {
-                let scene = Scene::built_in(name).unwrap();
-                Lane::new(&scene, Solver::Truth, 1).bodies()[0].preview()
-            };
-            assert!(Arc::ptr_eq(&preview(), &preview()), "{name}");
-        }
-    }
-
-    #[test]
-    fn the_range_of_a_coordinate_is_found_before_the_motion_is_drawn() {
-        let law = "title = 'Mine'\ntick_hz = 60\nseconds = 5\n\
-            [[law]]\n[law.coordinates.x]\nstart = 2\nacceleration = '-9*x'";
-        let &[(least, most)] = &ranges(&Scene::parse("mine.toml", law).unwrap())[..] else {
-            panic!()
-        };
-        assert!((least + 2.0).abs() < 0.01 && (most - 2.0).abs() < 0.01, "{least} to {most}");
-    }
-}

@@ -7,19 +7,19 @@ const MAX_QUOTED_CHARS: usize = 40;
 const MAX_LISTED_CHARS: usize = 200;
 
 /// Shortens a text for a message, and escapes its control characters.
-pub(crate) fn clip(text: &str) -> String {
+pub fn clip(text: &str) -> String {
     clip_to(MAX_QUOTED_CHARS, text)
 }
 
 /// Joins names from a file with commas, for a message.
-pub(crate) fn clip_list<'a>(names: impl Iterator<Item = &'a str>) -> String {
+pub fn clip_list<'a>(names: impl Iterator<Item = &'a str>) -> String {
     // No more of a file's text is read than a message can show.
     let shown = names.take(MAX_LISTED_CHARS).map(clip).collect::<Vec<_>>().join(", ");
     clip_to(MAX_LISTED_CHARS, &shown)
 }
 
 /// Returns the first characters of a text, with an ellipsis if more follow.
-pub(crate) fn truncate(max_chars: usize, text: &str) -> String {
+pub fn truncate(max_chars: usize, text: &str) -> String {
     match text.char_indices().nth(max_chars) {
         Some((end, _)) => format!("{}…", &text[..end]),
         None => text.to_owned(),

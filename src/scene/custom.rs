@@ -32,7 +32,7 @@ pub struct Options<S: System> {
     /// The methods in the race, at most [`MAX_LANES`], from [`METHODS`] or custom ones. If the list is empty, all
     /// methods race that step such a body.
     pub methods: Vec<&'static Method>,
-    /// Maximum work of [advice](crate::advise), in evaluations of one coordinate. Because work is counted and not
+    /// Maximum work of advice, in evaluations of one coordinate. Because work is counted and not
     /// timed, advice is the same on every machine; lanes beyond the limit stay unknown. The default, [`MAX_WORK`],
     /// takes a second or two; `u64::MAX` is no limit.
     pub max_work: u64,
@@ -165,7 +165,7 @@ impl Scene {
 /// # Panics
 /// If an option is invalid.
 #[track_caller]
-pub(crate) fn scene<S>(system: &S, start: State<S::Vector>, options: Options<S>) -> Scene
+pub fn scene<S>(system: &S, start: State<S::Vector>, options: Options<S>) -> Scene
 where
     S: System<Vector: Vector> + Clone + Send + 'static,
 {

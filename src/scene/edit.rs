@@ -96,7 +96,7 @@ fn typed_number(value: f64) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::Scene;
+    use crate::Scene;
     use crate::sim::bodies::{BODIES, MAX_VALUE, by_key, kind};
 
     /// Returns the values of the only body of a scene with this table, or the error message.

@@ -4,10 +4,10 @@ use super::nearest::listed;
 use super::table::Table;
 use super::wanted::{Field, Wanted};
 use super::{MAX_SUBSTEPS, TOLERANCES};
-use crate::scene::{LaneSpec, Swing};
 use crate::sim::bodies::Range;
 use crate::sim::integrators::{METHODS, Method};
 use crate::sim::{Impact, TickRate};
+use crate::{LaneSpec, Swing};
 
 /// A key with a reader into a draft `D` and a writer from a `T`.
 pub(super) struct Key<D: 'static, T: 'static> {
@@ -107,7 +107,7 @@ pub(super) fn step_s(rate: TickRate) -> Option<String> {
 }
 
 /// Returns the line at the top of a scene that sets the tick rate.
-pub(crate) fn tick_rate_line(rate: TickRate) -> String {
+pub fn tick_rate_line(rate: TickRate) -> String {
     let line = |key: &str, value| Some(format!("{key} = {}\n", value?));
     [line(TICK_HZ.key, tick_hz(rate)), line(STEP_S.key, step_s(rate))]
         .into_iter()

@@ -5,6 +5,13 @@
 //! so that a scene may name any entry of them. The reader reports all faults of a file at once, each with its place and
 //! its remedy; a [`Scene`] has no faults.
 
+// The rules of a room: see `src/lib.rs` and clippy.toml.
+#![warn(clippy::exit, clippy::print_stderr, clippy::print_stdout)]
+#![cfg_attr(not(test), warn(clippy::disallowed_methods, clippy::disallowed_types))]
+#![warn(clippy::iter_over_hash_type)]
+
+use regatta_sim as sim;
+
 use std::path::Path;
 use std::sync::{Arc, LazyLock, OnceLock};
 
@@ -15,7 +22,7 @@ use crate::sim::integrators::Method;
 mod action;
 mod action_range;
 mod appearance;
-pub(crate) mod clip;
+pub mod clip;
 mod cloud_shape;
 pub mod custom;
 mod described;
@@ -41,27 +48,26 @@ mod wanted;
 mod writer;
 
 pub use action::Action;
-pub(crate) use action::Control;
+pub use action::Control;
 pub use appearance::Appearance;
-pub(crate) use appearance::{Drawing, Preview};
-#[cfg(feature = "cli")]
-pub(crate) use clip::truncate;
-pub(crate) use clip::{clip, clip_list};
+pub use appearance::{Drawing, Preview};
+pub use clip::truncate;
+pub use clip::{clip, clip_list};
 pub use cloud_shape::CloudShape;
 pub use custom::{Options, OptionsError};
 pub use edit::{EditError, check_entered, edited_values, entered_tick_rate};
 pub use errors::{MAX_SHOWN, SceneError, SceneErrors, ShownError};
-pub(crate) use keys::tick_rate_line;
+pub use keys::tick_rate_line;
 pub use known::{SceneKey, scene_tables};
 pub use lane_spec::{LaneId, LaneSpec, Swing};
 pub use nearest::nearest;
-pub(crate) use outline::Thread;
+pub use outline::Thread;
 pub use outline::{Mark, Outline};
 pub use own::is_rule;
-pub(crate) use own::own_table;
+pub use own::own_table;
 pub use refusal::Refusal;
 pub use time_scale::TimeScale;
-pub(crate) use time_scale::{Piece, nearest_tick};
+pub use time_scale::{Piece, nearest_tick};
 
 /// Largest scene file in bytes, with room for tens of thousands of scripted commands. For a file full of mistakes, the
 /// parser needs some hundred times the size of the file in memory.
@@ -102,7 +108,7 @@ pub const MAX_SUBSTEPS: u32 = 1_000;
 pub const TOLERANCES: (f64, f64) = (1e-14, 1.0);
 
 /// Largest magnitude of a coordinate at which a body can be placed. Bodies halt beyond
-/// [`ESCAPE`](crate::run::race::ESCAPE).
+/// `ESCAPE`.
 const MAX_COORDINATE: f64 = 1e38;
 
 /// Maximum number of characters in a body's name, which appears in one line beside the body's cell.
@@ -110,7 +116,6 @@ pub const MAX_NAME_CHARS: usize = 64;
 
 /// The bodies of a simulation, with the settings of its run.
 #[derive(Clone, Debug)]
-#[non_exhaustive]
 pub struct Scene {
     /// Name of the built-in scene, or of its file without directory and ending.
     pub name: String,
@@ -166,7 +171,7 @@ pub struct SceneBody {
 
 impl SceneBody {
     /// Creates a body with the usual look of its kind.
-    pub(crate) fn new(name: impl Into<String>, kind: Arc<Kind>, values: Vec<f64>) -> Self {
+    pub fn new(name: impl Into<String>, kind: Arc<Kind>, values: Vec<f64>) -> Self {
         Self { name: name.into(), kind, values, appearance: Arc::default() }
     }
 }
@@ -207,7 +212,7 @@ pub struct Check {
     pub tick: u64,
     /// Number of the lane.
     pub lane: LaneId,
-    /// The lane's [hash](crate::run::Race::lane_hashes) when the lane reaches the tick, before the actions of that
+    /// The lane's hash when the lane reaches the tick, before the actions of that
     /// tick.
     pub hash: u64,
 }
@@ -249,7 +254,7 @@ impl Scene {
     }
 
     /// Returns the actions of the script in order, each with its tick's time in seconds.
-    pub(crate) fn timed_script(&self) -> impl Iterator<Item = (f64, &Action)> {
+    pub fn timed_script(&self) -> impl Iterator<Item = (f64, &Action)> {
         let actions = self.script.iter().map(|row| &row.action);
         self.script_on_ticks().map(|(_, t)| t).zip(actions)
     }
@@ -264,7 +269,7 @@ impl Scene {
     }
 
     /// Returns the scene with only the body at this index. The result has no checks, because these cover all bodies.
-    pub(crate) fn of_one_body(mut self, index: usize) -> Scene {
+    pub fn of_one_body(mut self, index: usize) -> Scene {
         self.bodies = vec![self.bodies.swap_remove(index)];
         self.checks.clear();
         self.script.retain_mut(|scripted| match &mut scripted.action {
@@ -297,18 +302,17 @@ impl Scene {
     }
 
     /// Returns the built-in scene of this name, or the first whose first body is of a kind of this name.
-    #[cfg(test)]
-    pub(crate) fn with_kind(kind: &str) -> Scene {
+    #[doc(hidden)]
+    pub fn with_kind(kind: &str) -> Scene {
         let others = SCENES.iter().filter_map(|scene| Scene::built_in(scene.name));
         let mut others = others.filter(|scene| scene.bodies[0].kind.id == kind);
         Scene::built_in(kind).or_else(|| others.next()).expect("a scene for each kind")
     }
 
     /// Returns the harbour with a second spring, for tests on several springs.
-    #[cfg(test)]
-    pub(crate) fn with_two_springs() -> Scene {
-        let [mut scene, mut damped] =
-            ["harbour", "damped"].map(|name| Scene::built_in(name).unwrap());
+    #[doc(hidden)]
+    pub fn with_two_springs() -> Scene {
+        let [mut scene, mut damped] = ["harbour", "damped"].map(Scene::with_kind);
         "damped spring".clone_into(&mut damped.bodies[0].name);
         scene.bodies.splice(1..1, damped.bodies);
         scene

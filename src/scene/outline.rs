@@ -4,7 +4,6 @@ use glam::DVec2;
 
 /// One part of a body, in metres, x right and y up.
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[non_exhaustive]
 pub enum Mark {
     /// A wall on which the body hangs, drawn as a line that does not move.
     Wall {

@@ -86,7 +86,7 @@ fn own(id: &str, text: &str, fps: Option<TickRate>) -> Result<&'static Method, E
 }
 
 /// Returns an own method or rule as a table of a scene file, after an empty line.
-pub(crate) fn own_table(method: &Method) -> String {
+pub fn own_table(method: &Method) -> String {
     format!("\n[[{OWN}]]\n{}", Key::lines(&OWN_KEYS, method))
 }
 

@@ -1,10 +1,10 @@
 //! Decides which methods can step a scene, and makes lanes of them.
 
 use super::{Scene, SceneBody};
-use crate::scene::{Action, LaneSpec};
 use crate::sim::bodies::incompatibility;
 use crate::sim::integrators::{Family, METHODS, Method};
 use crate::sim::{Impact, TickRate};
+use crate::{Action, LaneSpec};
 
 /// The reason why a method cannot step a scene.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -117,7 +117,7 @@ impl Scene {
 
     /// Adds a method in a person's own lines to the scene's [own](Scene::own_methods). The method replaces an earlier
     /// one with the same id, in the lanes too.
-    pub(crate) fn know_own(&mut self, method: &'static Method) {
+    pub fn know_own(&mut self, method: &'static Method) {
         if method.own_text().is_none() {
             return;
         }

@@ -4,7 +4,7 @@ use std::fmt;
 use std::ops::RangeInclusive;
 
 use super::nearest::listed;
-use crate::scene::CloudShape;
+use crate::CloudShape;
 use crate::sim::TickRate;
 use crate::sim::bodies::{self, Pin};
 use crate::sim::law::Layout;

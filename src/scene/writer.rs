@@ -10,7 +10,7 @@ use super::net::{GRID_KEYS, KICKED, LIST_KEYS};
 use super::own::own_table;
 use super::script::{CHECK, CHECKS, command_tables, parameter_value};
 use super::{Check, Scene, SceneBody};
-use crate::scene::LaneSpec;
+use crate::LaneSpec;
 use crate::sim::bodies::{NetLayout, NetPlan, Parameter, Range, by_key};
 
 impl Scene {
@@ -35,7 +35,7 @@ impl Scene {
     /// again.
     ///
     /// ```
-    /// use regatta::scene::Scene;
+    /// use regatta_scene::Scene;
     ///
     /// let scene = Scene::built_in("helm").expect("a built-in scene");
     /// let again = Scene::parse("helm.toml", &scene.to_toml()).expect("a scene");

@@ -190,8 +190,7 @@ impl Clock {
     }
 
     /// Returns the shortest frame in nanoseconds after which `ticks` ticks are due.
-    #[cfg(feature = "cli")]
-    pub(crate) fn ns_until(&self, ticks: u64) -> u64 {
+    pub fn ns_until(&self, ticks: u64) -> u64 {
         let due = i128::from(ticks) * self.tick() - self.accumulator.owed();
         u64::try_from(due.unsigned_abs().div_ceil(self.pace().unsigned_abs())).unwrap_or(u64::MAX)
     }

@@ -81,8 +81,8 @@ impl fmt::Display for Conformance {
 /// result then says so and does not hold.
 ///
 /// ```
-/// use regatta::conformance::check;
-/// use regatta::prelude::*;
+/// use regatta_sim::conformance::check;
+/// use regatta_sim::prelude::*;
 ///
 /// let found = check(method("midpoint").expect("a built-in method"));
 /// assert!(found.holds(), "{found}");

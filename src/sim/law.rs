@@ -31,14 +31,14 @@ mod tape;
 mod text;
 mod token;
 
-pub(crate) use expression::Expression;
+pub use expression::Expression;
 pub use expression::{MAX_BYTES, MAX_DEPTH};
 pub use fault::{ExpressionFault, LawFault, Part, Remedy};
-pub(crate) use op::Level;
+pub use op::Level;
 pub use rate::{SecondOrder, second_order};
-pub(in crate::sim) use registers::LawLanes;
+pub(crate) use registers::LawLanes;
 pub use registers::Registers;
-pub(crate) use step_text::{
+pub use step_text::{
     AT_TARGET, Frame, Line, LoopName, NO_RETURN, Operation, Powers, StepBody, SwitchKind,
     bracketed, remembers_place,
 };
@@ -61,7 +61,7 @@ pub const UNITS: [&str; 14] =
     ["m", "rad", "km", "cm", "mm", "deg", "kg", "N", "J", "V", "A", "C", "K", "1"];
 
 /// Returns a unit as people read it, which is empty for a pure number.
-pub(in crate::sim) fn shown_unit(unit: &'static str) -> &'static str {
+pub(crate) fn shown_unit(unit: &'static str) -> &'static str {
     if unit == "1" { "" } else { unit }
 }
 
@@ -87,7 +87,7 @@ pub fn values() -> impl Iterator<Item = &'static str> {
 #[derive(Debug)]
 pub struct Equations {
     text: LawText,
-    pub(in crate::sim) motion: Tape,
+    pub(crate) motion: Tape,
     energy: Option<Tape>,
     exact: Option<Tape>,
     places: Option<Tape>,
@@ -334,7 +334,7 @@ impl Equations {
 impl Equations {
     /// Returns the fault of the first operation that makes an acceleration infinite or undefined in the last
     /// evaluation; `None` if all accelerations are finite.
-    pub(in crate::sim) fn not_finite(&self, registers: &Registers) -> Option<LawFault> {
+    pub(crate) fn not_finite(&self, registers: &Registers) -> Option<LawFault> {
         let value = |slot: u16| registers.motion[slot as usize];
         let mut slot = *self.motion.outputs.iter().find(|&&slot| !value(slot).is_finite())?;
         loop {

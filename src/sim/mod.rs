@@ -4,6 +4,13 @@
 //! Everything that is stepped is `f64` and uses only `+ - × ÷ √` and `libm`, so that the same inputs give the same bits
 //! on every platform, in every build profile.
 
+// The rules of a room: see `src/lib.rs` and clippy.toml.
+#![warn(clippy::exit, clippy::print_stderr, clippy::print_stdout)]
+#![cfg_attr(not(test), warn(clippy::disallowed_methods, clippy::disallowed_types))]
+#![warn(clippy::iter_over_hash_type)]
+// docs.rs marks what needs a feature with its name.
+#![cfg_attr(docsrs, feature(doc_cfg))]
+
 #[cfg(feature = "batch")]
 pub mod batch;
 #[cfg(feature = "lab")]
@@ -29,10 +36,12 @@ mod near_wall;
 #[cfg(feature = "lab")]
 mod net_plan;
 pub mod number;
-pub(crate) mod numerics;
+#[cfg(feature = "lab")]
+pub mod numerics;
 #[cfg(feature = "lab")]
 mod own_method;
 mod parameter;
+pub mod prelude;
 mod propagator;
 mod reference;
 mod spin;
@@ -42,24 +51,18 @@ mod state;
 mod stepper;
 mod system;
 #[cfg(feature = "lab")]
-pub(crate) mod text;
+pub mod text;
 mod tick_rate;
 mod vec_system;
+
+/// The vectors of the systems, in the version whose bits are promised.
+pub use glam;
 
 pub use body::{Body, Distances, Input, MAX_SWITCHES, NO_BOUNDARIES, Piece};
 pub use body_stepper::stepper;
 pub use clock::{Accumulator, Clock, Due, MAX_FRAME_MS, TickRateError};
-#[cfg(feature = "lab")]
-pub(crate) use fnv::Fnv;
+pub use fnv::Fnv;
 pub use impact::{Bounces, IMPACTS, Impact, Wall, impact};
-#[cfg(feature = "lab")]
-pub(crate) use numerics::golden_section;
-#[cfg(feature = "lab")]
-pub use numerics::least_squares;
-#[cfg(feature = "lab")]
-pub(crate) use own_method::MAX_OWN_ID_CHARS;
-#[cfg(feature = "lab")]
-pub use own_method::{check_own_id, own_method, own_method_id, own_rule};
 pub use parameter::{
     Fault, MAX_POINTS, MAX_VALUE, Parameter, ParameterOf, Range, TakesEffect, Text,
 };
@@ -70,3 +73,8 @@ pub use system::{
     BodyClass, Counted, Coupling, EngineSettings, Evaluation, Pursuit, Query, StateOf, System,
 };
 pub use tick_rate::TickRate;
+#[cfg(feature = "lab")]
+pub use {
+    numerics::{golden_section, least_squares},
+    own_method::{MAX_OWN_ID_CHARS, check_own_id, own_method, own_method_id, own_rule},
+};

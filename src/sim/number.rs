@@ -74,7 +74,7 @@ pub fn duration(seconds: f64) -> String {
 }
 
 /// Writes a duration in the unit that fits its length; `written` formats its number.
-pub(crate) fn in_unit(seconds: f64, written: impl Fn(f64) -> String) -> String {
+pub fn in_unit(seconds: f64, written: impl Fn(f64) -> String) -> String {
     const MINUTE: f64 = 60.0;
     const HOUR: f64 = 60.0 * MINUTE;
     const DAY: f64 = 24.0 * HOUR;

@@ -1,24 +1,12 @@
-//! Numerical procedures independent of bodies and methods: difference quotients, bisection, golden sections,
+//! Numerical procedures independent of bodies and methods: derivatives, bisection, golden sections,
 //! least squares, and pseudo-random numbers.
 
-#[cfg(feature = "lab")]
 use nalgebra::{DMatrix, DVector};
 
-/// Overwrites each value `ahead` with its difference from the value `behind`, divided by the `distance` between the
-/// two. The caller must justify its choice of distance.
-#[inline]
-pub(super) fn quotient(ahead: &mut [f64], behind: &[f64], distance: f64) {
-    for (ahead, behind) in ahead.iter_mut().zip(behind) {
-        *ahead = (*ahead - behind) / distance;
-    }
-}
-
 /// The offsets of the values for [`fourth_order`], in steps.
-#[cfg(feature = "lab")]
 pub(super) const OFFSETS: [f64; 4] = [-2.0, -1.0, 1.0, 2.0];
 
 /// Returns the derivative by a central difference of fourth order, from the values at the [`OFFSETS`] with step `h`.
-#[cfg(feature = "lab")]
 pub(super) fn fourth_order([far_behind, behind, ahead, far_ahead]: [f64; 4], h: f64) -> f64 {
     (8.0 * (ahead - behind) - far_ahead + far_behind) / (12.0 * h)
 }
@@ -26,8 +14,7 @@ pub(super) fn fourth_order([far_behind, behind, ahead, far_ahead]: [f64; 4], h: 
 /// Bisects for the point at which a condition changes: `is_low` is true at `low` and false at `high`. Halves the
 /// interval between them `halvings` times. Returns the ends of the remaining interval, `low` first; `low` may be
 /// greater than `high`.
-#[cfg(feature = "lab")]
-pub(crate) fn bisect(
+pub fn bisect(
     [mut low, mut high]: [f64; 2],
     halvings: u32,
     mut is_low: impl FnMut(f64) -> bool,
@@ -43,7 +30,6 @@ pub(crate) fn bisect(
 /// `right` in mean square. If several solutions are equally close, returns the one with the smallest sum of squares.
 ///
 /// Returns `None` if there are fewer rows than columns, or if a number is not finite.
-#[cfg(feature = "lab")]
 pub fn least_squares(columns: &[Vec<f64>], right: &[f64]) -> Option<Vec<f64>> {
     if right.len() < columns.len() {
         return None;
@@ -59,10 +45,8 @@ pub fn least_squares(columns: &[Vec<f64>], right: &[f64]) -> Option<Vec<f64>> {
 }
 
 /// Pseudo-random numbers, the same on every run for a nonzero seed, by Marsaglia's xorshift with 13, 7 and 17.
-#[cfg(feature = "lab")]
 pub(super) struct XorShift(u64);
 
-#[cfg(feature = "lab")]
 impl XorShift {
     /// Returns the sequence with this seed.
     pub(super) fn new(seed: u64) -> Self {
@@ -78,7 +62,18 @@ impl XorShift {
     }
 }
 
-#[cfg(all(test, feature = "lab"))]
+/// Returns the place of the minimum of a function between two places by golden sections, to rounding, if there is only
+/// one minimum between them.
+pub fn golden_section(of: &impl Fn(f64) -> f64, [mut from, mut to]: [f64; 2]) -> f64 {
+    const GOLDEN: f64 = 0.618_033_988_749_894_9;
+    for _ in 0..60 {
+        let [left, right] = [to - GOLDEN * (to - from), from + GOLDEN * (to - from)];
+        if of(left) < of(right) { to = right } else { from = left }
+    }
+    (from + to) / 2.0
+}
+
+#[cfg(test)]
 mod tests {
     use super::least_squares;
 
@@ -90,16 +85,4 @@ mod tests {
         assert_eq!(least_squares(&columns, &[1.0, f64::NAN, 0.0, 0.0]), None);
         assert_eq!(least_squares(&[vec![1.0], vec![2.0]], &[1.0]), None);
     }
-}
-
-/// Returns the place of the minimum of a function between two places by golden sections, to rounding, if there is only
-/// one minimum between them.
-#[cfg(feature = "lab")]
-pub(crate) fn golden_section(of: &impl Fn(f64) -> f64, [mut from, mut to]: [f64; 2]) -> f64 {
-    const GOLDEN: f64 = 0.618_033_988_749_894_9;
-    for _ in 0..60 {
-        let [left, right] = [to - GOLDEN * (to - from), from + GOLDEN * (to - from)];
-        if of(left) < of(right) { to = right } else { from = left }
-    }
-    (from + to) / 2.0
 }

@@ -10,7 +10,7 @@ use super::system::System;
 use super::tick_rate::TickRate;
 
 /// The maximum number of characters in the id of an own method.
-pub(crate) const MAX_OWN_ID_CHARS: usize = 64;
+pub const MAX_OWN_ID_CHARS: usize = 64;
 
 /// Every method made so far, so that equal lines under one id are one method.
 static KNOWN: Mutex<Vec<&'static Method>> = Mutex::new(Vec::new());
@@ -22,7 +22,7 @@ static KNOWN: Mutex<Vec<&'static Method>> = Mutex::new(Vec::new());
 /// The first fault of the lines, or a fault if the lines do not call the acceleration.
 ///
 /// ```
-/// use regatta::sim::own_method;
+/// use regatta_sim::own_method;
 ///
 /// let euler = own_method("mine", "v += a(x, v) * h; x += v * h").unwrap();
 /// assert_eq!((euler.order, euler.evaluations, euler.symplectic), (1, Some(1), true));
@@ -105,7 +105,7 @@ fn only(text: &StepText) -> Option<Only> {
 /// The first fault of the lines, or the reason why no body moves like them.
 ///
 /// ```
-/// use regatta::sim::{TickRate, own_rule};
+/// use regatta_sim::{TickRate, own_rule};
 ///
 /// let chase = own_rule("chase", "x += (target - x) * 20 * dt", TickRate::whole(30)).unwrap();
 /// assert_eq!(chase.rule_fps(), Some(TickRate::whole(30)));

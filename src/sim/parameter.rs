@@ -98,7 +98,6 @@ impl TakesEffect {
 
 /// The values a parameter may take. All are finite.
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[non_exhaustive]
 pub enum Range {
     /// Greater than 0 and at most this number.
     Positive(f64),

@@ -10,14 +10,14 @@ use super::fnv::Fnv;
 /// Vector>`:
 ///
 /// ```compile_fail,E0277
-/// # use regatta::sim::{Elementwise, System, integrators::{Integrator, LinearlyImplicitEuler}};
+/// # use regatta_sim::{Elementwise, System, integrators::{Integrator, LinearlyImplicitEuler}};
 /// fn step_together<S: System<Vector: Elementwise>>(bodies: &S, like: &S::Vector) {
 ///     let _ = <LinearlyImplicitEuler<S::Vector> as Integrator<S>>::new(like);
 /// }
 /// ```
 ///
 /// ```
-/// # use regatta::sim::{Elementwise, System, integrators::{Integrator, Rk4}};
+/// # use regatta_sim::{Elementwise, System, integrators::{Integrator, Rk4}};
 /// fn step_together<S: System<Vector: Elementwise>>(bodies: &S, like: &S::Vector) {
 ///     let _ = <Rk4<S::Vector> as Integrator<S>>::new(like);
 /// }
@@ -107,10 +107,12 @@ macro_rules! small {
         impl Vector for $Small {
             const IS_SMALL: bool = true;
 
+            #[inline]
             fn components(&self) -> &[f64] {
                 $components(self)
             }
 
+            #[inline]
             fn components_mut(&mut self) -> &mut [f64] {
                 $components_mut(self)
             }
@@ -146,10 +148,12 @@ impl<const W: usize> Elementwise for [f64; W] {
 impl<const N: usize> Vector for [f64; N] {
     const IS_SMALL: bool = N <= 4;
 
+    #[inline]
     fn components(&self) -> &[f64] {
         self
     }
 
+    #[inline]
     fn components_mut(&mut self) -> &mut [f64] {
         self
     }
@@ -234,23 +238,34 @@ fn other_length(found: usize, wanted: usize) -> ! {
 }
 
 impl Vector for Vec<f64> {
+    #[inline]
     fn components(&self) -> &[f64] {
         self
     }
+    #[inline]
     fn components_mut(&mut self) -> &mut [f64] {
         self
     }
 }
 
+/// Overwrites each value `ahead` with its difference from the value `behind`, divided by the `distance` between the
+/// two. The caller must justify its choice of distance.
+#[inline]
+pub(crate) fn quotient(ahead: &mut [f64], behind: &[f64], distance: f64) {
+    for (ahead, behind) in ahead.iter_mut().zip(behind) {
+        *ahead = (*ahead - behind) / distance;
+    }
+}
+
 /// Returns an upper bound on the memory of values with this inline `size` in bytes. It assumes one heap vector as long
 /// as `like` for every 24 bytes.
-pub(in crate::sim) fn bytes_with_vectors(size: usize, like: &[f64]) -> usize {
+pub(crate) fn bytes_with_vectors(size: usize, like: &[f64]) -> usize {
     size + size / size_of::<Vec<f64>>() * size_of_val(like)
 }
 
 /// Returns the largest magnitude; NaN if a component is NaN.
 #[inline]
-pub(in crate::sim) fn largest<'a>(components: impl IntoIterator<Item = &'a f64>) -> f64 {
+pub(crate) fn largest<'a>(components: impl IntoIterator<Item = &'a f64>) -> f64 {
     // The bits of magnitudes have the order of the magnitudes; the bits of a NaN are above all others.
     let mut bits = components.into_iter().map(|component| component.abs().to_bits());
     // Four maxima are updated in turn, so that no update waits for the one before it.
@@ -269,7 +284,7 @@ pub(in crate::sim) fn largest<'a>(components: impl IntoIterator<Item = &'a f64>)
 
 /// Returns the number, or infinity if it is NaN, so that no comparison loses the NaN.
 #[inline]
-pub(in crate::sim) fn nan_is_infinite(error: f64) -> f64 {
+pub(crate) fn nan_is_infinite(error: f64) -> f64 {
     if error.is_nan() { f64::INFINITY } else { error }
 }
 
@@ -302,7 +317,7 @@ impl<V: Vector> State<V> {
     /// Returns a hash of the bits, with -0 as 0: 64-bit FNV-1a over little-endian words, coordinates first. It is the
     /// same on every platform and in every release.
     pub fn bits_hash(&self) -> u64 {
-        let mut hash = Fnv::new();
+        let mut hash = Fnv::default();
         self.numbers().for_each(|number| hash.number(number));
         hash.0
     }

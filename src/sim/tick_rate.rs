@@ -18,7 +18,7 @@ const MAX_TERM: u64 = 100_000_000_000_000;
 /// range of a clock.
 ///
 /// ```
-/// use regatta::sim::TickRate;
+/// use regatta_sim::TickRate;
 ///
 /// let source: TickRate = TickRate::of_step("0.015").expect("a step");
 /// assert_eq!(source, "200/3".parse::<TickRate>().expect("a rate"));

@@ -174,8 +174,8 @@ pub(super) fn strip(
 #[cfg(test)]
 mod tests {
     use super::flights;
+    use crate::compose;
     use crate::scene::Scene;
-    use crate::stage::compose;
     use crate::studio::{StageCommand, Studio};
 
     #[test]

@@ -267,9 +267,9 @@ fn closed_up(line: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::compose;
     use crate::run::race::Mode;
     use crate::scene::Scene;
-    use crate::stage::compose;
     use crate::studio::{Motion, StageCommand, Studio};
 
     fn opening() -> Studio {

@@ -333,9 +333,9 @@ pub(super) fn badges(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::captions::foot_of_verdicts;
+    use crate::compose;
     use crate::scene::Scene;
-    use crate::stage::captions::foot_of_verdicts;
-    use crate::stage::compose;
     use crate::studio::{StageCommand, Studio};
 
     /// Words of the badge for a body at these places, in a cell that shows 5 m to each side, and whether it is at the

@@ -246,8 +246,8 @@ impl DrawContext<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::compose;
     use crate::scene::Scene;
-    use crate::stage::compose;
     use crate::studio::{StageCommand, Studio, ViewCommand};
 
     #[test]

@@ -143,8 +143,8 @@ pub(super) fn label_ends(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::compose;
     use crate::scene::Scene;
-    use crate::stage::compose;
     use crate::studio::{Studio, ViewCommand, futures};
 
     const NUMBERS: [&str; 9] = ["1", "2", "3", "4", "5", "6", "7", "8", "9"];

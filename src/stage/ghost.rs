@@ -116,8 +116,8 @@ fn thinned(trail: impl Iterator<Item = Place> + Clone, tolerance_m: f64) -> Vec<
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::compose;
     use crate::scene::{Action, Scene};
-    use crate::stage::compose;
     use crate::studio::{RunCommand, StageCommand, Studio};
 
     /// Distance (m) of the spring's marks from rest, and the number in its caption.
@@ -192,5 +192,64 @@ mod tests {
             }
         }
         assert_eq!(thinned(std::iter::empty(), 1.0).len(), 0);
+    }
+
+    #[test]
+    fn a_differing_recording_runs_along_as_a_ghost_at_every_tick() {
+        use crate::run::diff::{Chosen, NotComparable, Tolerance, diff};
+        use crate::run::trace::Made;
+        use crate::studio::{Step, show_comparison};
+        let mut studio = Studio::new(Scene::built_in("spring").unwrap());
+        (0..90).for_each(|_| studio.tick());
+        let text = studio.deck.recording().unwrap() + "\n[[command]]\nat_s = 1.0\nkick = 1.0\n";
+        let recording = Scene::parse("clip.toml", &text).unwrap();
+        let run = studio.run().recording();
+        let [mut a, mut b] = [recording.clone(), run].map(|scene| Made::of_scene(scene, 90));
+        let found =
+            diff::<_, _, NotComparable>(&mut a, &mut b, Tolerance::default(), &Chosen::default());
+        show_comparison(&mut studio, "clip.toml", &found.unwrap(), recording.clone());
+        assert_eq!((studio.race().tick(), studio.running()), (61, false));
+        let lines = studio.deck.compared().unwrap().lines();
+        assert_eq!(lines[0], "differs from 1.017 s on: position of spring, exact solution");
+        assert!(lines[1].contains(" m apart, ") && lines[1].ends_with(" %"), "{lines:?}");
+        assert!(lines.iter().all(|line| line.chars().count() < 60), "{lines:?}");
+        assert_eq!(
+            studio.viewer.notice, None,
+            "the stage shows it, and the footer does not repeat it"
+        );
+        // Runs the recording in a separate session.
+        let alone = |tick: u64| {
+            let mut race = crate::run::Session::racing(recording.clone().into());
+            race.run(tick);
+            race.race().entrants()[0].lane.bodies()[0].stepper.q()[0]
+        };
+        let holds = |studio: &mut Studio, tick: u64| {
+            assert_eq!(studio.race().tick(), tick);
+            let spec = studio.selected().spec;
+            let compared = studio.deck.compared().expect("it stays");
+            let (_, q) = compared.body(studio.scene(), &spec, 0).expect("a spring too");
+            assert_eq!(q[0].to_bits(), alone(tick).to_bits(), "at tick {tick}");
+            let said: Vec<_> = compose(studio, [780.0, 440.0])
+                .labels
+                .into_iter()
+                .map(|label| label.text)
+                .collect();
+            for words in ["clip.toml", &lines[0], &lines[1]] {
+                assert!(said.iter().any(|said| said == words), "{words}: {said:?}");
+            }
+        };
+        holds(&mut studio, 61);
+        (0..40).for_each(|_| studio.tick());
+        holds(&mut studio, 101);
+        studio.apply(RunCommand::Seek(20));
+        holds(&mut studio, 20);
+        studio.apply(StageCommand::Second(Step::Next));
+        holds(&mut studio, 80);
+        // The recording has no body to show in a scene with other bodies.
+        let spec = studio.selected().spec;
+        let other = Scene::built_in("ship").unwrap();
+        assert!(studio.deck.compared().unwrap().body(&other, &spec, 0).is_none());
+        studio.apply(StageCommand::Restart);
+        assert!(studio.deck.compared().is_none());
     }
 }

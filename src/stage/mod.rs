@@ -3,6 +3,19 @@
 //! Lengths are logical points from the stage's top left corner, y down; colours are straight sRGB with alpha.
 //! Everything in a [`Picture`] is finite and within [`FAR`] of the stage, for any state of the lanes.
 
+// The rules of a room: see `src/lib.rs` and clippy.toml.
+#![warn(clippy::exit, clippy::print_stderr, clippy::print_stdout)]
+#![cfg_attr(not(test), warn(clippy::disallowed_methods, clippy::disallowed_types))]
+#![warn(clippy::iter_over_hash_type)]
+
+use regatta_look as look;
+use regatta_loops as loops;
+use regatta_measure as measure;
+use regatta_run as run;
+use regatta_scene as scene;
+use regatta_sim as sim;
+use regatta_studio as studio;
+
 mod apex;
 mod bands;
 mod body;
@@ -33,8 +46,7 @@ pub use grasp::{Cell, Grasp, Grip, Whose};
 use crate::look::palette::{Palette, Rgba, fade};
 
 // The items of `sim` that the view names; it has no other access to `sim`.
-#[cfg(feature = "view")]
-pub(crate) use crate::sim::{
+pub use crate::sim::{
     TickRate,
     bodies::{Coordinate, Parameter, Range, TakesEffect},
     number,

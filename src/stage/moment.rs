@@ -61,10 +61,10 @@ mod tests {
     use crate::run::race::Interpolation;
     use crate::scene::Scene;
     use crate::sim::number::significant;
-    use crate::stage::{Whose, compose};
     use crate::studio::{
         RunCommand, StageCommand, Step, Studio, ViewCommand, shown_s, shown_state,
     };
+    use crate::{Whose, compose};
 
     /// A spring and a ship under RK4, at a rate with visible ticks.
     fn studio() -> Studio {

@@ -132,8 +132,8 @@ pub(super) fn strayed_m(moment: &DrawContext<'_>, lane: &Entrant, body: usize) -
 #[cfg(test)]
 mod tests {
     use crate::scene::Scene;
-    use crate::stage::{Whose, compose};
     use crate::studio::{Motion, StageCommand, Studio};
+    use crate::{Whose, compose};
 
     const SIZE: [f32; 2] = [780.0, 500.0];
 
@@ -209,8 +209,8 @@ mod tests {
             studio.viewer.preferences.display.motion = Motion::Reduced;
             let explicit =
                 studio.display().theme.lane_style(studio.entries(), &studio.entries()[0]);
-            let has_trail = |shape: &crate::stage::Shape| match shape {
-                crate::stage::Shape::Path(path) => {
+            let has_trail = |shape: &crate::Shape| match shape {
+                crate::Shape::Path(path) => {
                     let is_own = path.points.iter().all(|at| at.colour[..3] == explicit.0[..3]);
                     path.points.len() > 60 && is_own
                 }

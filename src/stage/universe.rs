@@ -230,8 +230,8 @@ fn in_words(count: usize) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::compose;
     use crate::scene::Scene;
-    use crate::stage::compose;
     use crate::studio::Studio;
 
     const SIZE: [f32; 2] = [1280.0, 620.0];
@@ -319,9 +319,9 @@ mod tests {
         }
         let about = format!("{size:?}: {}", sentence.text);
         let tone = tone(studio.display().theme.palette());
-        let is_drawn = |shape: &&crate::stage::Shape| match shape {
-            crate::stage::Shape::Path(path) => path.points[0].colour == tone,
-            crate::stage::Shape::Fill(fill) => fill.corners[0].1 == tone,
+        let is_drawn = |shape: &&crate::Shape| match shape {
+            crate::Shape::Path(path) => path.points[0].colour == tone,
+            crate::Shape::Fill(fill) => fill.corners[0].1 == tone,
         };
         let drawn = picture.shapes.iter().filter(is_drawn).count();
         let names = labels.iter().filter_map(|it| {
@@ -363,10 +363,10 @@ mod tests {
             let [left, top, right, bottom] = extent(label);
             assert!(left >= 0.0 && right <= size[0] && bottom <= size[1], "{about}");
             // Dotted marks and trails go down.
-            let crosses = |path: &crate::stage::Path| {
+            let crosses = |path: &crate::Path| {
                 let is_in =
                     |at: [f32; 2]| (left..right).contains(&at[0]) && (top..bottom).contains(&at[1]);
-                let along = |ends: &[crate::stage::PathPoint]| {
+                let along = |ends: &[crate::PathPoint]| {
                     let part = |i: usize| i as f32 / 20.0;
                     let at = |i: usize, axis: usize| {
                         ends[0].at[axis] + part(i) * (ends[1].at[axis] - ends[0].at[axis])

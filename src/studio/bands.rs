@@ -62,7 +62,7 @@ pub(super) fn toggle_band(deck: &Deck, viewer: &mut Viewer, entry: MenuIndex) ->
 #[cfg(test)]
 mod tests {
     use crate::scene::Scene;
-    use crate::studio::{StageCommand, Studio, ViewCommand};
+    use crate::{StageCommand, Studio, ViewCommand};
 
     fn opening() -> Studio {
         let scene = Scene::built_in("two-springs").unwrap();

@@ -108,7 +108,7 @@ pub(super) fn open_figure(deck: &mut Deck, viewer: &mut Viewer, index: usize) {
 mod tests {
     use super::*;
     use crate::scene::Scene;
-    use crate::studio::{StageCommand, Studio, ViewCommand};
+    use crate::{StageCommand, Studio, ViewCommand};
 
     #[test]
     fn a_digit_on_the_list_of_figures_opens_that_figure_at_its_end() {

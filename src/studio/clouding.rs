@@ -122,7 +122,7 @@ mod tests {
     use crate::measure::cloud::CloudChoice;
     use crate::scene::Action;
     use crate::scene::Scene;
-    use crate::studio::{Command, RunCommand, StageCommand, Step, Studio, show_clouds_of_scene};
+    use crate::{Command, RunCommand, StageCommand, Step, Studio, show_clouds_of_scene};
 
     #[test]
     fn a_lone_cloud_never_leaves_its_picture() {

@@ -107,7 +107,7 @@ mod tests {
     use crate::run::diff::{Chosen, NotComparable, Tolerance, diff};
     use crate::run::trace::Made;
     use crate::scene::{Action, Scene};
-    use crate::studio::{HeldBody, Key, RunBeside, ViewCommand, command_for, show_comparison};
+    use crate::{HeldBody, Key, RunBeside, ViewCommand, command_for, show_comparison};
 
     fn studio(is_race: bool, is_full_screen: bool) -> Studio {
         let mut studio = Studio::new(Scene::built_in("harbour").unwrap());

@@ -177,7 +177,7 @@ impl FrameLoop {
 mod tests {
     use super::*;
     use crate::scene::{Action, Scene};
-    use crate::studio::{RunCommand, StageCommand, Step};
+    use crate::{RunCommand, StageCommand, Step};
 
     const FRAME_NS: u64 = 16_666_667;
 

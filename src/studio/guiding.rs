@@ -197,10 +197,10 @@ pub(super) fn hint(deck: &Deck, viewer: &Viewer, is_in_loop_lab: bool) -> Option
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::command::{Command, RunCommand, StageCommand, ViewCommand};
     use crate::run::METRICS;
     use crate::scene::Scene;
-    use crate::studio::command::{Command, RunCommand, StageCommand, ViewCommand};
-    use crate::studio::{Key, Studio, command_for};
+    use crate::{Key, Studio, command_for};
 
     #[test]
     fn leaving_the_guide_restores_the_settings_of_its_stops() {

@@ -69,7 +69,7 @@ pub fn joint_code(deck: &Deck, viewer: &Viewer, entry: MenuIndex) -> Option<Stri
 mod tests {
     use super::*;
     use crate::scene::Scene;
-    use crate::studio::{DriverRequest, RunCommand, StageCommand, Studio, ViewCommand};
+    use crate::{DriverRequest, RunCommand, StageCommand, Studio, ViewCommand};
 
     #[test]
     fn an_engines_setting_changes_the_spring_and_control_c_copies_it() {

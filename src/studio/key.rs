@@ -134,7 +134,7 @@ pub fn digit_of(index: usize) -> usize {
 }
 
 /// Returns the digit of the key that picks the entry with this index, or a dot if it has no key.
-pub(crate) fn mark_of(index: usize) -> String {
+pub fn mark_of(index: usize) -> String {
     if index < DIGITS { digit_of(index).to_string() } else { "•".into() }
 }
 

@@ -316,3 +316,6 @@ pub(super) fn title_of_loops(deck: &Deck, loops: &LoopLab) -> String {
         loops.scene().tick_hz,
     )
 }
+
+#[cfg(test)]
+mod tests;

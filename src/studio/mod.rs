@@ -5,6 +5,19 @@
 //! itself to the driver, as a [`DriverRequest`]. Its [`Viewer`] has the [`Preferences`], which outlast the scene, and
 //! the [`View`], which does not. [`INSTRUMENTS`] surround the stage, and the [`guide`] leads through the scenes.
 
+// The rules of a room: see `src/lib.rs` and clippy.toml.
+#![warn(clippy::exit, clippy::print_stderr, clippy::print_stdout)]
+#![cfg_attr(not(test), warn(clippy::disallowed_methods, clippy::disallowed_types))]
+#![warn(clippy::iter_over_hash_type)]
+
+use regatta_look as look;
+use regatta_loops as loops;
+use regatta_measure as measure;
+use regatta_run as run;
+use regatta_scene as scene;
+use regatta_sim as sim;
+use regatta_tools as tools;
+
 use crate::loops::Due;
 use crate::loops::loop_lab::LoopLab;
 use crate::measure::{AnalysisRequest, AnalysisWorker};
@@ -48,6 +61,7 @@ mod notice;
 mod notices;
 mod opening;
 mod pace;
+pub mod picture_note;
 mod pulling;
 mod restarting;
 mod resting;
@@ -85,7 +99,7 @@ pub use frame_loop::{FrameLoop, ToDo};
 pub use gesture::{GESTURES, Gesture};
 pub use instrument::{INSTRUMENTS, Instrument, InstrumentCard, InstrumentGroup};
 pub use joint::{SpringJoint, joint_code};
-pub(crate) use key::mark_of;
+pub use key::mark_of;
 pub use key::{Binding, DIGITS, KEYS, Key, command_for, commands_named, digit_of};
 pub use looping::{
     accept_loop, loop_lab_refusal, loop_request, open_loop_lab_on, open_own_loop, open_traces,
@@ -117,7 +131,7 @@ pub struct Studio {
     /// The person's view, and the texts beside it.
     pub viewer: Viewer,
     /// The loop lab, while the stage shows it and the run waits.
-    pub(super) loops: Option<Box<LoopLab>>,
+    pub(crate) loops: Option<Box<LoopLab>>,
 }
 
 impl Studio {

@@ -69,9 +69,9 @@ pub(super) fn run_lines(studio: &mut Studio) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::ViewCommand;
     use crate::scene::Scene;
-    use crate::studio::ViewCommand;
-    use crate::studio::viewer::EXAMPLE;
+    use crate::viewer::EXAMPLE;
 
     fn typed(text: &str) -> Studio {
         let mut studio = Studio::new(Scene::built_in("spring").unwrap());

@@ -218,7 +218,7 @@ impl MySpring {
     ///
     /// # Errors
     /// If a scene may not have these numbers.
-    pub(crate) fn advised_scene(self, tick_hz: impl Into<TickRate>) -> Result<Scene, SceneErrors> {
+    pub fn advised_scene(self, tick_hz: impl Into<TickRate>) -> Result<Scene, SceneErrors> {
         let tick_hz = tick_hz.into();
         let mut scene = self.scene(tick_hz)?;
         let adviser = Adviser::new(&scene, tick_hz);
@@ -364,6 +364,23 @@ mod tests {
             let told = lane.map(|lane| (lane.method.id, lane.substeps));
             let met = best.met[looks_right].met().unwrap();
             assert_eq!(told, Some((best.spec.method.id, met.substeps)), "at {tick_hz} Hz");
+        }
+    }
+
+    #[test]
+    fn a_recommended_method_shares_no_colour_with_the_lanes_of_my_spring() {
+        use crate::look::palette::Theme;
+        let scene = MySpring::default().scene(60).unwrap();
+        for best in scene.methods_for_games() {
+            let mut lanes = scene.lanes.clone();
+            if lanes.iter().all(|lane| lane.method != best) {
+                lanes.insert(1, LaneSpec::plain(best));
+            }
+            let colours = lanes.iter().map(|lane| Theme::Dark.lane_style(&lanes, lane).0);
+            let colours: Vec<_> = colours.collect();
+            let of_best = lanes.iter().position(|lane| lane.method == best).unwrap();
+            let shared = colours.iter().filter(|colour| **colour == colours[of_best]).count();
+            assert_eq!(shared, 1, "{}: {colours:?}", best.id);
         }
     }
 }

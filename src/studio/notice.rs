@@ -79,8 +79,8 @@ impl Deref for Notice {
 #[cfg(test)]
 mod tests {
     use super::Notice;
+    use crate::Studio;
     use crate::scene::Scene;
-    use crate::studio::Studio;
 
     #[test]
     fn a_notice_leaves_after_seconds_and_a_long_one_later_even_when_paused() {

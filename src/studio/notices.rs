@@ -94,7 +94,7 @@ mod tests {
     use crate::run::{METRICS, Metric};
     use crate::sim::integrators::StepFailure;
     use crate::sim::number::duration;
-    use crate::studio::{RunCommand, StageCommand, Studio};
+    use crate::{RunCommand, StageCommand, Studio};
 
     #[test]
     fn a_resumed_body_is_reported_with_its_halt_and_new_start() {

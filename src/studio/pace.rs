@@ -117,7 +117,7 @@ impl LiveLoop {
 mod tests {
     use super::*;
     use crate::scene::Scene;
-    use crate::studio::{Command, RunCommand, StageCommand, Step, ViewCommand};
+    use crate::{Command, RunCommand, StageCommand, Step, ViewCommand};
 
     /// A studio at this tick rate, the meter of its pace, and the start of the last frame.
     struct Run(Studio, PaceMeter, u64);

@@ -42,7 +42,7 @@ fn push(deck: &Deck, pulled: &PulledBody) -> Option<Action> {
 mod tests {
     use super::*;
     use crate::scene::Scene;
-    use crate::studio::{RunCommand, Studio, ViewCommand};
+    use crate::{RunCommand, Studio, ViewCommand};
 
     const FRAME_NS: i64 = 16_666_667;
 
@@ -55,7 +55,7 @@ mod tests {
     #[test]
     fn a_pull_holds_a_spring_between_its_rest_and_the_hand() {
         let mut studio = Studio::new(Scene::built_in("spring").unwrap());
-        studio.apply(crate::studio::StageCommand::Pick(3));
+        studio.apply(crate::StageCommand::Pick(3));
         studio.apply(ViewCommand::PointerDown(true));
         studio.apply(pulled(&studio, 3.0));
         (0..600).for_each(|_| _ = studio.advance(FRAME_NS));
@@ -83,7 +83,7 @@ mod tests {
     fn a_pull_is_stable_at_every_rate() {
         for hz in [1, 2, 5, 10, 1000] {
             let mut studio = Studio::new(Scene::built_in("ship").unwrap());
-            studio.apply(crate::studio::StageCommand::TickHz(hz.into()));
+            studio.apply(crate::StageCommand::TickHz(hz.into()));
             studio.apply(pulled(&studio, 50.0));
             (0..1200).for_each(|_| _ = studio.advance(FRAME_NS));
             let [x, v] = {

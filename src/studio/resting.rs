@@ -26,7 +26,7 @@ impl Deck {
     }
 
     /// Whether the run is not paused. A run that has come to rest by itself counts as not paused.
-    pub(crate) fn runs_or_rests(&self, motion: Motion) -> bool {
+    pub fn runs_or_rests(&self, motion: Motion) -> bool {
         self.running || self.comes_to_rest(motion)
     }
 
@@ -80,9 +80,9 @@ pub(super) fn watch_again(deck: &mut Deck, viewer: &mut Viewer) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::driving::slow_motion;
     use crate::scene::{Action, Scene};
-    use crate::studio::driving::slow_motion;
-    use crate::studio::{Command, RunCommand, StageCommand, Step, Studio, ViewCommand};
+    use crate::{Command, RunCommand, StageCommand, Step, Studio, ViewCommand};
 
     /// Returns a studio that a person watches.
     fn watched(scene: &str) -> Studio {
@@ -201,7 +201,7 @@ mod tests {
 
     #[test]
     fn a_rest_does_not_count_as_the_pause_a_guide_stop_asks_for() {
-        use crate::studio::guide::{Goal, STOPS};
+        use crate::guide::{Goal, STOPS};
         let mut studio = watched("spring");
         let stop = STOPS.iter().position(|stop| stop.goal == Goal::Paused).unwrap();
         studio.apply(ViewCommand::GoToStop(stop));

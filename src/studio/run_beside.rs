@@ -55,7 +55,7 @@ impl RunBeside {
 mod tests {
     use super::*;
     use crate::scene::{Action, Scene};
-    use crate::studio::{RunCommand, StageCommand, Studio};
+    use crate::{RunCommand, StageCommand, Studio};
 
     fn ticked(ticks: u64) -> Studio {
         let mut studio = Studio::new(Scene::built_in("spring").unwrap());

@@ -333,14 +333,16 @@ impl<R> Lines<R> {
 
 /// The cells of a column, one after the other, and the end of each.
 #[derive(Clone, Default)]
-pub(crate) struct Cells {
-    pub(crate) text: String,
-    pub(crate) ends: Vec<u32>,
+pub struct Cells {
+    /// All cells of the column.
+    pub text: String,
+    /// End of each cell in the text, in bytes.
+    pub ends: Vec<u32>,
 }
 
 impl Cells {
     /// Returns the cell in a row.
-    pub(crate) fn get(&self, row: usize) -> &str {
+    pub fn get(&self, row: usize) -> &str {
         let start = row.checked_sub(1).map_or(0, |before| self.ends[before]);
         &self.text[start as usize..self.ends[row] as usize]
     }

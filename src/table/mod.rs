@@ -6,12 +6,19 @@
 //! Numbers may have a decimal comma unless commas separate the cells. Rows of numbers without a header have their
 //! heading in the remark above them, or numbers as names. JSON becomes rows. [`TableOptions`] take precedence.
 
+// The rules of a room: see `src/lib.rs` and clippy.toml.
+#![warn(clippy::exit, clippy::print_stderr, clippy::print_stdout)]
+#![cfg_attr(not(test), warn(clippy::disallowed_methods, clippy::disallowed_types))]
+#![warn(clippy::iter_over_hash_type)]
+
+use regatta_scene as scene;
+use regatta_sim as sim;
+
 use std::io::{self, BufRead, Read};
 
 use csv::ByteRecord;
 
 mod encoding;
-#[cfg(feature = "serde")]
 mod json;
 mod moment;
 mod number;
@@ -19,13 +26,12 @@ mod options;
 mod unit;
 
 pub use encoding::Utf8;
-#[cfg(feature = "serde")]
-pub(crate) use json::Cells;
+pub use json::Cells;
 pub use moment::{Course, Moment, median};
 pub use number::{Decimal, number};
 use options::RowFilter;
 pub use options::{TableOptions, Taken, column};
-pub(crate) use unit::words;
+pub use unit::words;
 pub use unit::{Heading, Unit};
 
 /// Maximum number of lines above a header, not counting remarks and blank lines.
@@ -36,7 +42,7 @@ pub const MAX_ROW_BYTES: usize = 1 << 20;
 /// Maximum number of bytes in the header and all lines above it.
 const MAX_HEAD_BYTES: usize = 1 << 22;
 /// Number of bytes that are read from an input at once.
-pub(crate) const BUFFER_BYTES: usize = 1 << 20;
+pub const BUFFER_BYTES: usize = 1 << 20;
 
 /// Options for reading a table.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -115,15 +121,13 @@ fn cells_in_words(cells: usize, header: usize) -> String {
 fn names_of(header: &ByteRecord) -> String {
     let names = header.iter().map(|name| String::from_utf8_lossy(name).trim().to_owned());
     let names: Vec<String> = names.map(|name| format!("\"{name}\"")).collect();
-    crate::scene::clip_list(names.iter().map(String::as_str))
+    scene::clip_list(names.iter().map(String::as_str))
 }
 
 /// The text of a table: that of the input, or of the JSON in it.
 enum Text<R> {
     Plain(io::Chain<io::Cursor<Vec<u8>>, R>),
-    #[cfg(feature = "serde")]
     Whole(io::Cursor<Vec<u8>>),
-    #[cfg(feature = "serde")]
     Lines(json::Lines<io::Chain<io::Cursor<Vec<u8>>, R>>),
 }
 
@@ -135,7 +139,6 @@ impl<R: BufRead> Text<R> {
     fn of(mut input: R) -> Result<(Self, Option<bool>), TableFault> {
         let mut start = Vec::new();
         (&mut input).take(START_BYTES).read_to_end(&mut start).map_err(TableFault::Input)?;
-        #[cfg(feature = "serde")]
         if json::is_json(&start) {
             let input = io::Cursor::new(start).chain(input);
             return Ok(match json::convert(input).map_err(TableFault::Json)? {
@@ -151,9 +154,7 @@ impl<R: BufRead> Text<R> {
     fn input(&mut self) -> &mut dyn BufRead {
         match self {
             Self::Plain(input) => input,
-            #[cfg(feature = "serde")]
             Self::Whole(input) => input,
-            #[cfg(feature = "serde")]
             Self::Lines(input) => input,
         }
     }
@@ -161,7 +162,6 @@ impl<R: BufRead> Text<R> {
     /// Number of lines of the text that are not lines of the input.
     fn own_lines(&self) -> u64 {
         match self {
-            #[cfg(feature = "serde")]
             Self::Lines(_) => 1,
             _ => 0,
         }

@@ -109,7 +109,7 @@ impl Heading {
 }
 
 /// Splits a name into its words in lower case. `simTime`, `sim_time` and `sim.time` have the same two words.
-pub(crate) fn words(name: &str) -> Vec<String> {
+pub fn words(name: &str) -> Vec<String> {
     let mut words = vec![String::new()];
     let mut was_lower = false;
     for sign in name.chars() {

@@ -10,9 +10,9 @@ use nalgebra::{Matrix2, Vector2};
 
 use super::port::seen::{spectral_radius, spring_of_map};
 use super::port::{Approach, Wish};
+use crate::identify::Effective;
 use crate::sim::law::{ExpressionFault, Frame, Powers, StepText, remembers_place};
 use crate::sim::numerics::bisect;
-use crate::tools::identify::Effective;
 
 pub use any_rate::RuleCode;
 pub use bounce::{BouncesSeen, RuleBounce};

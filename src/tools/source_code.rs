@@ -177,7 +177,7 @@ pub fn impact_code(impact: &Impact, language: Language) -> Result<String, String
 }
 
 /// Returns a rule as [`impact_code`] does, for this restitution and gravity (m/s²).
-pub(crate) fn impact_code_for(
+pub fn impact_code_for(
     impact: &Impact,
     language: Language,
     [e, g]: [f64; 2],
@@ -201,7 +201,7 @@ pub(crate) fn impact_code_for(
 /// The reason why the lines cannot be printed, as a clause.
 ///
 /// ```
-/// use regatta::tools::source_code::{Language, loop_code};
+/// use regatta_tools::source_code::{Language, loop_code};
 ///
 /// let code = loop_code("mine", "tick 1 of dt", Language::Rust).unwrap();
 /// assert!(code.contains("step(duration_ms / self.second);"));

@@ -84,7 +84,7 @@ mod tests {
     use super::*;
     use crate::look::palette::Rgba;
     use crate::stage::{Path, PathPoint, Rect};
-    use crate::view::tests::testing::{EVERYWHERE, draw_picture, executor, paint, stage_alone};
+    use crate::tests::testing::{EVERYWHERE, draw_picture, executor, paint, stage_alone};
 
     /// Water with this number of pale lines across it, and over them another line at height `own`.
     fn picture(top: Rgba, lines: usize, own: f32) -> Picture {

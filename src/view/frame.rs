@@ -10,7 +10,7 @@ use super::chart::figure::{self, Figure};
 use super::drawing::Drawing;
 use super::meshes::draw_panels;
 use super::panels::{self, Panels};
-use super::stage::{Stage, draw_stage};
+use super::stage_area::{Stage, draw_stage};
 use super::theme::{self, auto_zoom, colour};
 use super::touch::Touch;
 use crate::stage;

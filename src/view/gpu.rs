@@ -231,7 +231,7 @@ fn rank(info: &wgpu::AdapterInfo) -> (u8, u8) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::view::tests::testing::gpu_or_skip;
+    use crate::tests::testing::gpu_or_skip;
 
     fn info(kind: wgpu::DeviceType, backend: wgpu::Backend) -> wgpu::AdapterInfo {
         wgpu::AdapterInfo::new(kind, backend)

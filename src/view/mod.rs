@@ -4,6 +4,19 @@
 //! and in the destination of its pixels. Colours are blended as they are stored, in gamma space, so all textures to
 //! draw on have a format without `Srgb` in its name.
 
+// The rules of a room: see `src/lib.rs` and clippy.toml.
+#![warn(clippy::exit, clippy::print_stderr, clippy::print_stdout)]
+#![cfg_attr(not(test), warn(clippy::disallowed_methods, clippy::disallowed_types))]
+
+use regatta_look as look;
+use regatta_loops as loops;
+use regatta_measure as measure;
+use regatta_run as run;
+use regatta_scene as scene;
+use regatta_stage as stage;
+use regatta_studio as studio;
+use regatta_tools as tools;
+
 mod backdrop;
 mod chart;
 mod copying;
@@ -24,7 +37,7 @@ mod readback;
 mod screen;
 mod screen_transform;
 mod shapes;
-mod stage;
+mod stage_area;
 mod strokes;
 mod theme;
 mod touch;
@@ -49,17 +62,17 @@ pub use screen::Screen;
 
 /// The values of the selected instrument, as lines of comma-separated text under a heading; `None` if it has no
 /// plots.
-pub fn instrument_csv(studio: &crate::studio::Studio) -> Option<Vec<String>> {
+pub fn instrument_csv(studio: &studio::Studio) -> Option<Vec<String>> {
     panels::csv(studio)
 }
 
 /// The verdict on the active method and the status line, as sentences for a screen reader.
-pub fn spoken(studio: &crate::studio::Studio) -> String {
+pub fn spoken(studio: &studio::Studio) -> String {
     panels::spoken(studio)
 }
 
 /// The plots of the selected instrument as an SVG file; `None` if it has none.
-pub fn instrument_svg(studio: &crate::studio::Studio) -> Option<String> {
+pub fn instrument_svg(studio: &studio::Studio) -> Option<String> {
     panels::svg(studio)
 }
 
@@ -67,5 +80,5 @@ pub fn instrument_svg(studio: &crate::studio::Studio) -> Option<String> {
 #[cfg(test)]
 mod tests {
     mod legibility;
-    pub(in crate::view) mod testing;
+    pub(crate) mod testing;
 }

@@ -4,15 +4,13 @@ use image::codecs::png::{CompressionType, FilterType, PngEncoder};
 use image::{ExtendedColorType, ImageEncoder};
 use png::text_metadata::{EncodableTextChunk, TEXtChunk};
 
-use crate::picture_note::SOFTWARE;
+use crate::studio::picture_note::SOFTWARE;
 
 /// Length of the signature and the header, after which the note follows.
 const HEADER_BYTES: usize = 33;
 
 /// Length of the signature, and the checksum of the last chunk, which is empty.
-#[cfg(feature = "cli")]
 const SIGNATURE_BYTES: usize = 8;
-#[cfg(feature = "cli")]
 const IEND_CHECKSUM: [u8; 4] = [0xae, 0x42, 0x60, 0x82];
 
 /// Encodes `rgba`, straight 8-bit pixels of a picture of `size_px`, top row first.
@@ -32,7 +30,6 @@ pub fn encode([width, height]: [u32; 2], rgba: &[u8]) -> Vec<u8> {
 }
 
 /// Whether a PNG file ends with its last chunk, neither before nor after.
-#[cfg(feature = "cli")]
 pub fn is_whole(file: &[u8]) -> bool {
     let mut rest = file.get(SIGNATURE_BYTES..).unwrap_or_default();
     // A chunk has a length, a kind, that many bytes and a checksum.
@@ -55,10 +52,10 @@ fn note() -> Vec<u8> {
     chunk
 }
 
-#[cfg(all(test, feature = "cli"))]
+#[cfg(test)]
 mod tests {
     use super::*;
-    use crate::picture_note::{NOTED_WITHIN, is_encoded_here};
+    use crate::studio::picture_note::{NOTED_WITHIN, is_encoded_here};
 
     #[test]
     fn a_picture_survives_to_the_bit_with_its_origin() {

@@ -117,7 +117,7 @@ fn wait_until_mapped(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::view::tests::testing::gpu_or_skip;
+    use crate::tests::testing::gpu_or_skip;
 
     /// A texture holding `rows`, uploaded rather than drawn.
     fn uploaded(gpu: &Gpu, [width, height]: [u32; 2], rows: &[u8]) -> wgpu::Texture {

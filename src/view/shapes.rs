@@ -56,7 +56,7 @@ fn joint(point: &PathPoint) -> Joint {
 mod tests {
     use super::*;
     use crate::stage::{Fill, Path, Picture};
-    use crate::view::tests::testing::{EVERYWHERE, Pixels, draw_picture};
+    use crate::tests::testing::{EVERYWHERE, Pixels, draw_picture};
 
     const SOLID: [f32; 2] = [1.0, 0.0];
 

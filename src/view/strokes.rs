@@ -144,7 +144,7 @@ mod tests {
     use super::*;
     use crate::look::palette::Rgba;
     use crate::stage::{Path, PathPoint, Picture, Rect, Shape};
-    use crate::view::tests::testing::{EVERYWHERE, Pixels, draw_picture};
+    use crate::tests::testing::{EVERYWHERE, Pixels, draw_picture};
 
     const SOLID: [f32; 2] = [1.0, 0.0];
 

@@ -329,7 +329,7 @@ mod tests {
         apply_style(&context);
         context.run_ui(RawInput::default(), |_| {}).textures_delta.clear();
         let mut signs = BTreeSet::new();
-        let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+        let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
         for folder in ["src", "assets"] {
             signs_under(root.join(folder), &mut signs);
         }

@@ -74,7 +74,7 @@ fn crates() -> BTreeSet<String> {
         let [name, version] = [words.next(), words.next()].map(Option::unwrap_or_default);
         format!("{name} {}", version.trim_start_matches('v'))
     });
-    named.filter(|named| !named.starts_with("regatta ")).collect()
+    named.filter(|named| !named.starts_with("regatta")).collect()
 }
 
 #[test]
@@ -106,7 +106,8 @@ fn no_profile_has_a_table_for_a_package_of_ours() {
     let is_profile = |line: &&str| line.starts_with("[profile.");
     let tables = manifest.lines().filter(is_profile).filter(|line| line.contains("regatta"));
     assert_eq!(tables.collect::<Vec<_>>(), [""; 0]);
-    let rows = manifest.lines().filter(|line| line.starts_with("regatta") && line.contains('{'));
+    let is_row = |line: &&str| line.starts_with("regatta") && line.contains("opt-level");
+    let rows = manifest.lines().filter(is_row);
     assert_eq!(rows.collect::<Vec<_>>(), [""; 0]);
 }
 

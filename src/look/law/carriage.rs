@@ -114,14 +114,14 @@ impl BodyPicture for Carriage<'_> {
 mod tests {
     use super::super::super::Look;
     use super::*;
+    use crate::run::Race;
     use crate::scene::Scene;
-    use crate::studio::Studio;
 
     #[test]
     fn the_wheel_ends_up_on_the_approaching_kerb() {
-        let mut studio = Studio::new(Scene::built_in("quarter-car").unwrap());
-        let road = |studio: &Studio, t: f64| -> Vec<[DVec2; 2]> {
-            let body = &studio.race().truth().bodies()[0];
+        let mut race = Race::of_scene(&Scene::built_in("quarter-car").unwrap());
+        let road = |race: &Race, t: f64| -> Vec<[DVec2; 2]> {
+            let body = &race.truth().bodies()[0];
             let outline = Look::of(body).outline(t, body.stepper.q());
             let walls = outline.marks.iter().filter_map(|mark| match mark {
                 Mark::Wall { from, to } => Some([*from, *to]),
@@ -133,15 +133,15 @@ mod tests {
             let piece = road.iter().find(|ends| (ends[0].x..=ends[1].x).contains(&x)).unwrap();
             piece[0].lerp(piece[1], (x - piece[0].x) / (piece[1].x - piece[0].x)).y
         };
-        let flat = road(&studio, -5.0);
+        let flat = road(&race, -5.0);
         assert_eq!(flat.len(), 1, "{flat:?}");
-        let before = road(&studio, 0.6);
+        let before = road(&race, 0.6);
         let ahead = before.last().unwrap()[1].x;
         let rise = height(&before, ahead) - height(&before, 0.0);
         assert!((rise - 0.1).abs() < 1e-9 && before.len() <= 6, "{before:?}");
-        (0..400).for_each(|_| studio.tick());
-        let after = road(&studio, 4.0);
-        let body = &studio.race().truth().bodies()[0];
+        race.run(400);
+        let after = road(&race, 4.0);
+        let body = &race.truth().bodies()[0];
         let discs = Look::of(body).outline(4.0, body.stepper.q()).marks;
         let bottom = discs.iter().find_map(|mark| match mark {
             Mark::Disc { centre, radius } => Some(centre.y - radius),

@@ -217,22 +217,6 @@ fn only_explicit_euler_has_the_colour_of_explicit_euler() {
 }
 
 #[test]
-fn a_recommended_method_shares_no_colour_with_the_lanes_of_my_spring() {
-    let scene = crate::studio::MySpring::default().scene(60).unwrap();
-    for best in scene.methods_for_games() {
-        let mut lanes = scene.lanes.clone();
-        if lanes.iter().all(|lane| lane.method != best) {
-            lanes.insert(1, LaneSpec::plain(best));
-        }
-        let colours = lanes.iter().map(|lane| Theme::Dark.lane_style(&lanes, lane).0);
-        let colours: Vec<_> = colours.collect();
-        let of_best = lanes.iter().position(|lane| lane.method == best).unwrap();
-        let shared = colours.iter().filter(|colour| **colour == colours[of_best]).count();
-        assert_eq!(shared, 1, "{}: {colours:?}", best.id);
-    }
-}
-
-#[test]
 fn euler_and_adaptive_euler_have_distant_colours_in_both_themes() {
     for (theme, least) in [(Theme::Dark, 30.0), (Theme::Light, 40.0)] {
         let [euler, adaptive] = ["explicit-euler", "adaptive-euler"]

@@ -1,11 +1,11 @@
 //! The frames of the body in one loop, and the metrics of a frame.
 
-use crate::loops::{FrameTrace, GameTime, LoopRun, MIN_RUN_S, PacingReport, PolicyCard};
 use crate::run::past::Energies;
 use crate::run::race::LaneBody;
 use crate::run::{Scale, Unit};
 use crate::scene::{LaneSpec, Scene};
 use crate::sim::integrators::Method;
+use crate::{FrameTrace, GameTime, LoopRun, MIN_RUN_S, PacingReport, PolicyCard};
 
 /// Maximum length of a loop's run, in seconds of the display.
 const MAX_S: f64 = 20.0;

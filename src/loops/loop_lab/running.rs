@@ -5,9 +5,9 @@ use std::collections::VecDeque;
 use std::sync::Arc;
 
 use super::lane::LoopLane;
-use crate::loops::{FrameTrace, POLICIES, PolicyCard};
 use crate::scene::Scene;
 use crate::sim::integrators::Method;
+use crate::{FrameTrace, POLICIES, PolicyCard};
 
 /// One body under one method, to run in every loop over the frames of a trace.
 pub struct LoopRequest {

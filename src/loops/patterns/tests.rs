@@ -1,7 +1,7 @@
 use std::collections::BTreeSet;
 
 use super::*;
-use crate::loops::trace::Frame;
+use crate::trace::Frame;
 
 const HZ_60: RefreshRate = RefreshRate::new(60, 1);
 const REFRESH_NS: i64 = 16_666_667;

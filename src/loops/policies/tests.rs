@@ -1,5 +1,5 @@
 use super::*;
-use crate::loops::{FrameLimits, Pacer, RefreshRate, Steps, TimeBase};
+use crate::{FrameLimits, Pacer, RefreshRate, Steps, TimeBase};
 
 /// Returns a loop on a display of 60 Hz with 60 ticks a second.
 fn pacer(id: &str) -> Pacer {
@@ -70,7 +70,7 @@ fn limits_take_the_place_of_the_constants_of_the_lines() {
     assert_eq!(made("fixed", limits()), 15);
     assert_eq!(made("fixed", FrameLimits { max_ticks: Some(20), ..limits() }), 20);
     assert_eq!(made("fixed", FrameLimits { max_frame_ms: Some(500), ..limits() }), 30);
-    let clamp = Some(crate::loops::LongFrame::Clamp(2_000_000_000));
+    let clamp = Some(crate::LongFrame::Clamp(2_000_000_000));
     assert_eq!(made("fixed", FrameLimits { long_frame: clamp, ..limits() }), 60);
     assert_eq!(made("hysteresis", FrameLimits { max_ticks: Some(3), ..limits() }), 3);
     assert_eq!(made("semi-fixed", FrameLimits { max_ticks: Some(4), ..limits() }), 4);

@@ -57,12 +57,10 @@ const TIMES: [(&str, f64, bool); 3] =
 const OF_MANGOHUD: [&str; 3] = ["elapsed", "cpu_load", "gpu_load"];
 
 /// Columns that several tools write, besides those of the tables above.
-#[cfg(feature = "serde")]
 const OTHERS: [&str; 6] =
     ["MsUntilDisplayed", "Dropped", "FrameType", "SwapChainAddress", "fps", "MsBetweenPresents"];
 
 /// Returns the name of each column by which a log is read, except those of its program.
-#[cfg(feature = "serde")]
 pub(super) fn known_names() -> impl Iterator<Item = &'static str> {
     let formats = FORMATS.iter().flat_map(|(_, _, began, beside)| match beside {
         CompanionColumn::Until(name)

@@ -2,8 +2,8 @@
 
 use super::Fault;
 use super::columns::{Cells, Span};
-use crate::loops::time_base::RefreshRate;
-use crate::loops::trace::{ClockConflict, Frame, FrameTrace};
+use crate::time_base::RefreshRate;
+use crate::trace::{ClockConflict, Frame, FrameTrace};
 
 const YEAR_NS: i64 = 365 * 86_400_000_000_000;
 

@@ -12,7 +12,7 @@ use crate::sim::integrators::steps_in_blocks;
 pub const POINTS: [usize; 3] = [10_000, USUAL_POINTS, 1_000_000];
 
 /// Maximum number of lanes with a cloud.
-pub(crate) const MAX_CLOUDS: usize = 9;
+pub const MAX_CLOUDS: usize = 9;
 
 /// Number of cells of a density image in each direction, which is more than a cloud has pixels in most windows.
 pub(super) const GRID: usize = 512;
@@ -38,19 +38,22 @@ impl Default for CloudChoice {
 /// The clouds that a studio requests.
 #[derive(Clone, Debug)]
 pub struct CloudRequest {
-    pub(crate) scene: Arc<Scene>,
+    /// The scene, with the parameters of its bodies.
+    pub scene: Arc<Scene>,
     /// Edits to the run.
-    pub(crate) changes: Interventions,
+    pub changes: Interventions,
     /// Index of the body in the scene.
-    pub(crate) body: usize,
+    pub body: usize,
     /// The lanes, by their indices in the list.
-    pub(crate) lanes: Vec<(usize, LaneSpec)>,
-    pub(crate) tick_hz: TickRate,
-    pub(crate) choice: CloudChoice,
+    pub lanes: Vec<(usize, LaneSpec)>,
+    /// Tick rate of the clouds.
+    pub tick_hz: TickRate,
+    /// The shape and the number of points.
+    pub choice: CloudChoice,
     /// Ticks since the clouds started.
-    pub(crate) tick: u64,
+    pub tick: u64,
     /// Whether the run plays in real time, so that the clouds have to keep up.
-    pub(crate) in_time: bool,
+    pub in_time: bool,
 }
 
 impl CloudRequest {
@@ -139,7 +142,7 @@ pub struct LaneCloud {
     pub hidden: usize,
     /// Number of the `hidden` points on each side: left, right, below, above.
     pub beyond: [usize; 4],
-    /// Area relative to the start, as [`crate::measure::cloud::Cloud::area_ratio`] returns it.
+    /// Area relative to the start, as [`crate::cloud::Cloud::area_ratio`] returns it.
     pub area_ratio: Option<f64>,
     /// The change of the area, in words.
     pub words: String,

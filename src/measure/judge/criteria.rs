@@ -1,21 +1,21 @@
 //! Whether a lane meets a criterion, from a run that ends as soon as the answer is known.
 
 use super::{Judge, without_truth};
-use crate::measure::bounce_finding::BounceFinding;
-use crate::measure::by_bounces::follow_bounces;
-use crate::measure::by_energy::follow_energy;
-use crate::measure::by_spin::{follow_long_spin, follow_spin};
-use crate::measure::change::bounded;
-use crate::measure::criterion::{Criterion, FREQUENCY_TOLERANCE, TOLERANCE, VISIBLE};
-use crate::measure::modes::{Modes, TooMuch};
-use crate::measure::pace::Pace;
-use crate::measure::run::{JudgedRun, Until, follow};
-use crate::measure::spin_finding::SpinFinding;
-use crate::measure::truth::BodyTruth;
+use crate::bounce_finding::BounceFinding;
+use crate::by_bounces::follow_bounces;
+use crate::by_energy::follow_energy;
+use crate::by_spin::{follow_long_spin, follow_spin};
+use crate::change::bounded;
+use crate::criterion::{Criterion, FREQUENCY_TOLERANCE, TOLERANCE, VISIBLE};
+use crate::judged_run::{JudgedRun, Until, follow};
+use crate::modes::{Modes, TooMuch};
+use crate::pace::Pace;
+use crate::spin_finding::SpinFinding;
+use crate::truth::BodyTruth;
 
 /// Whether a lane meets a [`Criterion`].
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(in crate::measure) enum CriterionFinding {
+pub(crate) enum CriterionFinding {
     /// The lane meets the criterion, at this cost.
     Holds { evaluations_per_s: f64 },
     /// The body with this index in the scene fails.
@@ -25,7 +25,7 @@ pub(in crate::measure) enum CriterionFinding {
 }
 
 impl CriterionFinding {
-    pub(in crate::measure) fn holds(self) -> bool {
+    pub(crate) fn holds(self) -> bool {
         matches!(self, CriterionFinding::Holds { .. })
     }
 }
@@ -46,11 +46,7 @@ impl From<TooMuch> for CriterionMiss {
 }
 
 impl Judge {
-    pub(in crate::measure) async fn meets(
-        &self,
-        criterion: Criterion,
-        pace: Pace,
-    ) -> CriterionFinding {
+    pub(crate) async fn meets(&self, criterion: Criterion, pace: Pace) -> CriterionFinding {
         if !self.has_ticks(pace.tick_hz) {
             return CriterionFinding::Unknown;
         }
@@ -96,7 +92,7 @@ impl Judge {
     }
 
     /// Returns how a lane misses a criterion; `None` if the lane meets it. If the modes prove this, nothing runs.
-    pub(in crate::measure) async fn misses(
+    pub(crate) async fn misses(
         &self,
         criterion: Criterion,
         pace: Pace,
@@ -213,7 +209,7 @@ impl Judge {
 
     /// Whether a lane is accurate with the fraction `spare` of [`TOLERANCE`] left on every body with bumps. The errors
     /// of linear bodies have no bumps, because they change steadily with a parameter.
-    pub(in crate::measure) async fn is_accurate_sparing(&self, spare: f64, pace: Pace) -> bool {
+    pub(crate) async fn is_accurate_sparing(&self, spare: f64, pace: Pace) -> bool {
         for truth in &self.truths {
             let spare = if truth.modes.is_none() { spare } else { 0.0 };
             let most = (1.0 - spare) * TOLERANCE;

@@ -154,7 +154,7 @@ fn chains(mut segments: Vec<[Side; 2]>) -> Vec<Vec<Side>> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::measure::slices::block_on;
+    use crate::slices::block_on;
 
     #[test]
     fn a_disc_has_one_round_boundary_and_its_own_area() {

@@ -3,7 +3,7 @@
 use std::fmt;
 
 use super::{Coverage, PointStability, StabilityMap};
-use crate::measure::duration;
+use crate::duration;
 use crate::scene::LaneSpec;
 use crate::sim::number::counted;
 

@@ -1,12 +1,12 @@
 use std::sync::Arc;
 
 use super::*;
-use crate::measure::pace::Pace;
-use crate::measure::run::{MAX_WORK, Until, follow};
-use crate::measure::slices::block_on;
-use crate::measure::truth::BodyTruth;
+use crate::judged_run::{MAX_WORK, Until, follow};
+use crate::pace::Pace;
 use crate::scene::{LaneSpec, Scene};
 use crate::sim::integrators::method;
+use crate::slices::block_on;
+use crate::truth::BodyTruth;
 
 /// Returns the swings of a pendulum of 0.4 m under a method at this rate.
 fn swings(head: &str, id: &str, tick_hz: u32, substeps: u32) -> Swings {

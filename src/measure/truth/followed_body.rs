@@ -3,13 +3,13 @@
 use std::ops::ControlFlow;
 
 use super::BodyTruth;
-use crate::measure::swings::Swings;
 use crate::run::race::{StopReason, Ticked, Ticker, advance_checked};
 use crate::scene::Action;
 use crate::sim::bodies::Coordinates;
 use crate::sim::integrators::{Family, StepFailure};
 use crate::sim::stability::Tick;
 use crate::sim::{Solver, Stepper, TickRate};
+use crate::swings::Swings;
 
 /// Work of a tick besides its evaluations, per coordinate, for the comparison with the truth and the energy.
 const WORK_OF_TICK: u64 = 4;
@@ -21,7 +21,7 @@ const SMALL_MATRIX: u64 = 20;
 const TICKS_PER_LOOK: u64 = 64;
 
 /// Returns the work of `evaluations` evaluations of a body with `n` coordinates, in evaluations of one coordinate.
-pub(in crate::measure) fn work_of(evaluations: u64, n: u64, solver: Solver) -> u64 {
+pub(crate) fn work_of(evaluations: u64, n: u64, solver: Solver) -> u64 {
     let has_matrix = solver
         .method()
         .is_some_and(|method| matches!(method.family, Family::Implicit | Family::Linearised));
@@ -30,15 +30,15 @@ pub(in crate::measure) fn work_of(evaluations: u64, n: u64, solver: Solver) -> u
 }
 
 /// A body that is stepped alone.
-pub(in crate::measure) struct FollowedBody {
-    pub(in crate::measure) stepper: Box<dyn Stepper>,
+pub(crate) struct FollowedBody {
+    pub(crate) stepper: Box<dyn Stepper>,
     coordinates: Coordinates,
     solver: Solver,
     substeps: u32,
     /// Initial energy plus the energy that inputs have added, in joules.
-    pub(in crate::measure) base_j: f64,
+    pub(crate) base_j: f64,
     /// The body's swings, if they are measured.
-    pub(in crate::measure) swings: Option<Swings>,
+    pub(crate) swings: Option<Swings>,
     /// Work per tick of a true motion, whose work is not measured in any other way.
     work_of_moment: u64,
     /// Work that the meter has counted.
@@ -46,16 +46,11 @@ pub(in crate::measure) struct FollowedBody {
 }
 
 /// A body followed from its start, with the inputs of the script.
-pub(in crate::measure) type FollowedRun = Ticker<'static, FollowedBody>;
+pub(crate) type FollowedRun = Ticker<'static, FollowedBody>;
 
 impl BodyTruth {
     /// Returns the body before its first tick, under `solver` at this rate.
-    pub(in crate::measure) fn follow(
-        &self,
-        solver: Solver,
-        substeps: u32,
-        tick_hz: TickRate,
-    ) -> FollowedRun {
+    pub(crate) fn follow(&self, solver: Solver, substeps: u32, tick_hz: TickRate) -> FollowedRun {
         let mut body = FollowedBody {
             stepper: self.start(solver),
             coordinates: self.coordinates(),
@@ -71,7 +66,7 @@ impl BodyTruth {
     }
 
     /// Continues until `end` ticks are made, or `see` stops the run.
-    pub(in crate::measure) async fn run_until(
+    pub(crate) async fn run_until(
         &self,
         run: &mut FollowedRun,
         end: u64,
@@ -110,12 +105,12 @@ impl FollowedBody {
     }
 
     /// Returns the kinetic and potential energy in joules.
-    pub(in crate::measure) fn energies(&self) -> [f64; 2] {
+    pub(crate) fn energies(&self) -> [f64; 2] {
         self.stepper.mechanical_energy().unwrap_or([0.0; 2])
     }
 
     /// Returns the total energy in joules.
-    pub(in crate::measure) fn energy(&self) -> f64 {
+    pub(crate) fn energy(&self) -> f64 {
         let [kinetic, potential] = self.energies();
         kinetic + potential
     }
@@ -158,6 +153,6 @@ impl Ticked for FollowedBody {
 const ON_TIME: f64 = 1e-6;
 
 /// Returns the number of whole ticks at this rate in `seconds`.
-pub(in crate::measure) fn ticks(seconds: f64, tick_hz: TickRate) -> u64 {
+pub(crate) fn ticks(seconds: f64, tick_hz: TickRate) -> u64 {
     (seconds * f64::from(tick_hz) + ON_TIME).floor() as u64
 }

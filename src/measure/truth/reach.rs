@@ -1,9 +1,9 @@
 //! The reach of the true motion, which gives the amplitudes of its components, and the scale for the growth of a swing.
 
 use super::TruthNode;
-use crate::measure::survey::Ranges;
 use crate::scene::SceneBody;
 use crate::sim::bodies::Coordinates;
+use crate::survey::Ranges;
 
 /// A force points to the centre if its transverse part is below this fraction of the whole force.
 const CENTRAL: f64 = 1e-9;
@@ -12,7 +12,7 @@ const CENTRAL: f64 = 1e-9;
 const TURNS: f64 = 1e-6;
 
 /// The reach of the true motion in the long run.
-pub(in crate::measure) enum Reach {
+pub(crate) enum Reach {
     /// Middle and half the range of each component, with the coordinates first.
     Each(Vec<(f64, f64)>),
     /// Largest distance from the centre at the origin, and largest speed, for a motion that turns about the centre. The
@@ -22,7 +22,7 @@ pub(in crate::measure) enum Reach {
 
 impl Reach {
     /// Returns the reach of these coordinates, relative to the reach of the true motion's coordinates.
-    pub(in crate::measure) fn of_coordinates(&self, q: &[f64]) -> f64 {
+    pub(crate) fn of_coordinates(&self, q: &[f64]) -> f64 {
         match self {
             Reach::Each(parts) => farthest(q, &parts[..q.len()]),
             Reach::Centre { distance, .. } => length(q) / distance,
@@ -30,7 +30,7 @@ impl Reach {
     }
 
     /// Returns the reach of these velocities, relative to the reach of the true motion's velocities.
-    pub(in crate::measure) fn of_velocities(&self, v: &[f64]) -> f64 {
+    pub(crate) fn of_velocities(&self, v: &[f64]) -> f64 {
         match self {
             Reach::Each(parts) => farthest(v, &parts[v.len()..]),
             Reach::Centre { speed, .. } => length(v) / speed,

@@ -5,10 +5,10 @@ use std::ops::ControlFlow;
 use std::sync::{Arc, Mutex};
 
 use super::{BodyTruth, FollowedBody, ticks};
-use crate::measure::slices::Once;
 use crate::run::race::StopReason;
 use crate::sim::integrators::StepFailure;
 use crate::sim::{Solver, TickRate};
+use crate::slices::Once;
 
 /// Maximum number of products of the exact flow for one series, which is less than a second of work.
 const MAX_SERIES_PRODUCTS: u64 = 500_000_000;
@@ -18,42 +18,41 @@ const MAX_SERIES_PRODUCTS: u64 = 500_000_000;
 const MAX_KEPT: usize = 1 << 22;
 
 /// Cached series by tick rate in Hz. If several threads request the same one, the first thread computes it.
-pub(in crate::measure) type TruthSeriesByRate =
-    Mutex<HashMap<TickRate, Arc<Once<Arc<TruthSeries>>>>>;
+pub(crate) type TruthSeriesByRate = Mutex<HashMap<TickRate, Arc<Once<Arc<TruthSeries>>>>>;
 
 /// The true states at the ticks of one rate.
-pub(in crate::measure) struct TruthSeries {
+pub(crate) struct TruthSeries {
     /// The components after each tick, in order.
     values: Vec<f64>,
     components: usize,
     /// Largest error of the truth up to each tick, in amplitudes.
     gaps: Vec<f64>,
-    pub(in crate::measure) failure: Option<StepFailure>,
+    pub(crate) failure: Option<StepFailure>,
     /// Whether the series is missing because it would take too much work.
-    pub(in crate::measure) is_too_much: bool,
+    pub(crate) is_too_much: bool,
 }
 
 impl TruthSeries {
     /// Returns the components after `tick` ticks, where `tick` is at least 1; `None` after the truth has failed.
-    pub(in crate::measure) fn at(&self, tick: u64) -> Option<&[f64]> {
+    pub(crate) fn at(&self, tick: u64) -> Option<&[f64]> {
         let from = (tick as usize - 1) * self.components;
         self.values.get(from..from + self.components)
     }
 
     /// Returns the largest error of the truth up to `tick` ticks, in amplitudes; infinite after the truth has failed.
-    pub(in crate::measure) fn gap(&self, tick: u64) -> f64 {
+    pub(crate) fn gap(&self, tick: u64) -> f64 {
         self.gaps.get(tick as usize - 1).copied().unwrap_or(f64::INFINITY)
     }
 }
 
 impl BodyTruth {
     /// Returns the largest error of the truth up to this time, in amplitudes, at the ticks of this rate.
-    pub(in crate::measure) async fn gap(&self, seconds: f64, tick_hz: TickRate) -> f64 {
+    pub(crate) async fn gap(&self, seconds: f64, tick_hz: TickRate) -> f64 {
         self.series(tick_hz).await.gap(ticks(seconds, tick_hz).max(1))
     }
 
     /// Returns the true states at the ticks of this rate, up to the horizon.
-    pub(in crate::measure) async fn series(&self, tick_hz: TickRate) -> Arc<TruthSeries> {
+    pub(crate) async fn series(&self, tick_hz: TickRate) -> Arc<TruthSeries> {
         let once = {
             let mut series_by_rate = self.series_by_rate.lock().expect("no thread panics with it");
             let known = series_by_rate.values().filter_map(|once| once.get_if_known());

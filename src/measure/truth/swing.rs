@@ -1,8 +1,8 @@
 //! The true swing of a body, with its crossings and the widths of its half turns.
 
 use super::{BodyTruth, TruthNode};
-use crate::measure::amplitude::Measure;
-use crate::measure::criterion::{FREQUENCY_TOLERANCE, VISIBLE};
+use crate::amplitude::Measure;
+use crate::criterion::{FREQUENCY_TOLERANCE, VISIBLE};
 use crate::sim::Solver;
 use crate::sim::numerics::bisect;
 
@@ -13,32 +13,28 @@ const ONE_MODE: f64 = 0.99;
 const FAINT: f64 = 1e-3;
 
 /// The true swing of a body.
-pub(in crate::measure) struct Swing {
+pub(crate) struct Swing {
     /// The coordinate whose crossings are counted.
-    pub(in crate::measure) coordinate: usize,
+    pub(crate) coordinate: usize,
     /// Times at which this coordinate crosses its centre upwards, in seconds.
-    pub(in crate::measure) crossings: Vec<f64>,
+    pub(crate) crossings: Vec<f64>,
     /// Largest distance of any coordinate from its centre in each half turn, in amplitudes. A half turn ends when the
     /// swinging coordinate passes its centre. The first one begins at the start, and the last one ends with the motion.
-    pub(in crate::measure) half_turns: Vec<f64>,
+    pub(crate) half_turns: Vec<f64>,
     /// Times (s) at the ends of the half turns but for the last, each at the next known moment.
-    pub(in crate::measure) passages: Vec<f64>,
+    pub(crate) passages: Vec<f64>,
 }
 
 impl Swing {
     /// Returns the largest distance of any coordinate from its centre, in amplitudes.
-    pub(in crate::measure) fn widest(&self) -> f64 {
+    pub(crate) fn widest(&self) -> f64 {
         self.half_turns.iter().copied().fold(0.0, f64::max)
     }
 
     /// Returns the width of this swing relative to `other`, which is farthest from 1 in a complete half turn of both at
     /// about the same time; `None` if there is none. The distances are in metres or the like by these amplitudes. Half
     /// turns of which nothing is seen do not count.
-    pub(in crate::measure) fn width_beside(
-        &self,
-        other: &Self,
-        [own, others]: [f64; 2],
-    ) -> Option<f64> {
+    pub(crate) fn width_beside(&self, other: &Self, [own, others]: [f64; 2]) -> Option<f64> {
         let complete = |swing: &Self| -> Vec<([f64; 2], f64)> {
             let ends = swing.passages.windows(2).map(|ends| [ends[0], ends[1]]);
             ends.zip(swing.half_turns.iter().skip(1).copied()).collect()
@@ -55,7 +51,7 @@ impl Swing {
 
     /// Returns the lead in seconds over a swing that crosses its centre upwards at these times (s). It is that of the
     /// crossings nearest to `t`, and at most half a period.
-    pub(in crate::measure) fn lead_s(&self, crossings: &[f64], t: f64) -> f64 {
+    pub(crate) fn lead_s(&self, crossings: &[f64], t: f64) -> f64 {
         let nearest = |crossings: &[f64], t: f64| {
             let apart = |a: &f64, b: &f64| (a - t).abs().total_cmp(&(b - t).abs());
             crossings.iter().copied().min_by(apart).unwrap_or(t)
@@ -65,19 +61,19 @@ impl Swing {
     }
 
     /// Returns the largest error, in amplitudes, of a harmonic motion that is this many seconds early or late.
-    pub(in crate::measure) fn error_when(&self, early_s: f64) -> f64 {
+    pub(crate) fn error_when(&self, early_s: f64) -> f64 {
         let half_turns = (early_s.abs() / self.period()).min(0.5);
         2.0 * libm::sin(std::f64::consts::PI * half_turns)
     }
 
     /// Whether a shift by this many seconds explains at least half of an error in amplitudes.
-    pub(in crate::measure) fn is_cause_of(&self, early_s: f64, error: f64) -> bool {
+    pub(crate) fn is_cause_of(&self, early_s: f64, error: f64) -> bool {
         self.error_when(early_s) >= error / 2.0
     }
 
     /// Whether the half turns of a lane, from index `first` on, are as wide as the true ones within [`VISIBLE`] of the
     /// widest. They may come earlier or later. The end of the horizon may cut off the last half turn of each motion.
-    pub(in crate::measure) fn is_as_wide(&self, lane: &[f64], first: usize) -> bool {
+    pub(crate) fn is_as_wide(&self, lane: &[f64], first: usize) -> bool {
         let whole = |half_turns: &[f64]| half_turns.len().saturating_sub(1).max(1);
         let widest = |half_turns: &[f64]| half_turns.iter().copied().fold(0.0, f64::max);
         let (wanted, found) = (whole(&self.half_turns), whole(lane));
@@ -98,7 +94,7 @@ impl Swing {
 
 impl BodyTruth {
     /// Returns the quantity that grows or dies away.
-    pub(in crate::measure) fn measure(&self) -> Measure {
+    pub(crate) fn measure(&self) -> Measure {
         match (&self.swing, &self.modes) {
             (None, _) => Measure::Deviation,
             (Some(_), Some(modes)) if modes.iter().all(|moved| moved.share < ONE_MODE) => {

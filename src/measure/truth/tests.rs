@@ -1,8 +1,8 @@
 //! Amplitudes, swings and the long run of true motions.
 
 use super::*;
-use crate::measure::slices::block_on;
 use crate::scene::Scene;
+use crate::slices::block_on;
 
 fn of_first_body(scene: &Scene, seconds: f64) -> BodyTruth {
     block_on(BodyTruth::find(&scene.bodies[0], &[], 1.0, seconds, Arc::default()))

@@ -1,9 +1,9 @@
 //! Follows the true motion of one body in adaptive steps.
 
 use super::BodyTruth;
-use crate::measure::survey::{Ranges, TruthNode};
 use crate::sim::integrators::StepFailure;
 use crate::sim::{Solver, Stepper};
+use crate::survey::{Ranges, TruthNode};
 
 /// Position of the check within a step, which is irrational so that regular steps do not resonate with a period.
 const CHECKED_AT: f64 = 0.381_966_011_250_105_1;

@@ -1,10 +1,10 @@
 //! The exact wording of verdicts.
 
-use crate::measure::{
+use crate::sim::integrators::StepFailure;
+use crate::{
     Comparison, Finding, LongTerm, Measure, NoTruth, NotJudged, RunFailure, Severity, SwingWidths,
     TOLERANCE, Trend, Verdict,
 };
-use crate::sim::integrators::StepFailure;
 
 const COMPARED: Comparison = Comparison {
     error: 0.25,

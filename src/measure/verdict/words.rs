@@ -3,11 +3,11 @@
 use std::fmt;
 
 use super::{Comparison, Finding, LongTerm, NoTruth, NotJudged, SwingWidths, Verdict};
-use crate::measure::amplitude::Measure;
-use crate::measure::chase_finding::ChaseFinding;
-use crate::measure::criterion::{TOLERANCE, VISIBLE};
-use crate::measure::energy_finding::EnergyFinding;
-use crate::measure::outcome::Outcome;
+use crate::amplitude::Measure;
+use crate::chase_finding::ChaseFinding;
+use crate::criterion::{TOLERANCE, VISIBLE};
+use crate::energy_finding::EnergyFinding;
+use crate::outcome::Outcome;
 use crate::sim::number::{duration, in_unit, round, significant, superscript};
 
 /// Largest relative frequency error that is too small to cause anything.
@@ -414,8 +414,8 @@ fn brief_duration(seconds: f64) -> String {
 mod tests {
     use super::super::RunFailure;
     use super::*;
-    use crate::measure::Judge;
-    use crate::measure::amplitude::Trend;
+    use crate::Judge;
+    use crate::amplitude::Trend;
     use crate::scene::{LaneSpec, Scene};
     use crate::sim::integrators::{StepFailure, method};
 

@@ -91,29 +91,6 @@ fn an_old_verdict_stays_until_its_replacement_is_computed() {
 }
 
 #[test]
-fn a_map_keeps_its_regions_while_its_cross_is_moved() {
-    use crate::studio::{Instrument, RunCommand, StageCommand, Studio};
-    let mut studio = Studio::new(Scene::built_in("spring").unwrap());
-    studio.apply(StageCommand::Instrument(Instrument::StabilityMap));
-    let mut worker = AnalysisWorker::new(studio.analysis_request());
-    while worker.work() {}
-    let found = worker.findings().map.expect("a map");
-    assert_eq!(found.regions.len(), found.request.specs.len());
-    let [damping, stiffness] = ["damping", "stiffness"].map(|name| {
-        let parameters = &studio.scene().bodies[0].kind.parameters;
-        parameters.iter().position(|parameter| parameter.key.starts_with(name)).unwrap()
-    });
-    let mut moved = |parameter: usize, value: f64| {
-        studio.apply(StageCommand::TickHz(24.into()));
-        studio.apply(RunCommand::Act(Action::Set { body: 0, parameter, value }));
-        worker.set_request(studio.analysis_request());
-        worker.findings().map.map(|map| (map.regions, map.here.len()))
-    };
-    assert_eq!(moved(stiffness, 580.0), Some((found.regions, 0)));
-    assert_eq!(moved(damping, 3.0), Some((Vec::new(), 0)), "another map");
-}
-
-#[test]
 fn advice_is_computed_in_small_steps_and_only_on_request() {
     let unasked = request("spring");
     let mut worker = AnalysisWorker::new(unasked.clone());

@@ -1,7 +1,7 @@
 //! The metrics of a body that turns in space.
 
 use super::{Metric, Scale, Unit, if_finite, unless_halted};
-use crate::run::race::LaneBody;
+use crate::race::LaneBody;
 use crate::sim::bodies::Tumble;
 
 /// The angle between two attitudes.

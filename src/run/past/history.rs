@@ -8,8 +8,8 @@ use std::{iter, option};
 
 use super::sample::{Sample, Summary, SweptRange};
 use super::windowed_log::WindowedLog;
-use crate::run::race::LaneBody;
-use crate::run::{METRICS, Metric};
+use crate::race::LaneBody;
+use crate::{METRICS, Metric};
 
 /// Maximum number of samples per summary. A summary's range covers all motion between the summary's ends.
 const MAX_SUMMED: usize = 4;
@@ -210,7 +210,7 @@ mod tests {
     use glam::DVec2;
 
     use super::*;
-    use crate::run::past::sample::CAPACITY;
+    use crate::past::sample::CAPACITY;
 
     fn sample(t: f64, entry: usize) -> Sample {
         Sample {

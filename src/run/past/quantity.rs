@@ -1,6 +1,6 @@
 //! Quantities of a coordinate for the motion instrument.
 
-use crate::run::race::LaneBody;
+use crate::race::LaneBody;
 use crate::sim::bodies::{Coordinate, Ship};
 
 /// A quantity of a coordinate that the motion instrument shows.

@@ -2,10 +2,10 @@
 
 use glam::DVec2;
 
-use crate::run::race::LaneBody;
-use crate::run::{METRICS, MenuIndex};
+use crate::race::LaneBody;
 use crate::sim::Stepper;
 use crate::sim::bodies::Tumble;
+use crate::{METRICS, MenuIndex};
 
 /// Maximum number of displayed samples, which is enough for every tick of 30 s at 60 Hz, and more than a plot has
 /// pixels.
@@ -81,7 +81,7 @@ pub struct Energies {
 
 impl Energies {
     /// Returns the body's present energies; `None` if the body conserves no energy. Never allocates.
-    pub(crate) fn of(body: &dyn Stepper) -> Option<Self> {
+    pub fn of(body: &dyn Stepper) -> Option<Self> {
         Some(Self { kinetic_j: body.kinetic_energy()?, total_j: body.energy()? })
     }
 

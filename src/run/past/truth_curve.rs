@@ -9,7 +9,7 @@ use glam::DVec2;
 use super::quantity::Quantity;
 use super::sample::{Energies, SweptRange};
 use super::windowed_log::WindowedLog;
-use crate::run::race::{LaneBody, LastTick, hermite, slope};
+use crate::race::{LaneBody, LastTick, hermite, slope};
 use crate::sim::bodies::Input;
 use crate::sim::{Solver, Stepper};
 
@@ -384,7 +384,7 @@ fn cubic(from: &TruthSample, to: &TruthSample, part: f64) -> [f64; 2] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::run::Race;
+    use crate::Race;
     use crate::scene::Scene;
 
     #[test]

@@ -9,7 +9,7 @@ use crate::sim::bodies::{TakesEffect, incompatibility};
 
 impl Race {
     /// Performs the journal's pending actions at the present tick.
-    pub(crate) fn catch_up(&mut self, observer: &mut dyn Observer) {
+    pub fn catch_up(&mut self, observer: &mut dyn Observer) {
         if self.journal.rows().get(self.done).is_none_or(|row| row.tick > self.tick) {
             return;
         }
@@ -45,11 +45,7 @@ impl Race {
     /// removes the person's later actions. Returns `None`, and leaves the journal alone, if the run cannot take the
     /// action (see [`Action::clamped_in_range`]). The same holds if the action changes neither the present nor the
     /// script's pending actions.
-    pub(crate) fn act(
-        &mut self,
-        action: Action,
-        observer: &mut dyn Observer,
-    ) -> Option<PerformedAction> {
+    pub fn act(&mut self, action: Action, observer: &mut dyn Observer) -> Option<PerformedAction> {
         self.catch_up(observer);
         let action = action.clamped_in_range()?;
         let planned = self.action_to_perform(&action, Author::Person);

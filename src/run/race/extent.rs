@@ -10,7 +10,7 @@ const AT_REST: f64 = 0.01;
 
 /// The range of a body's true motion since its start.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Extent {
+pub struct Extent {
     largest_speed: f64,
     /// Largest sum of kinetic and potential energy (J), for a body that does not conserve this sum.
     most_j: f64,
@@ -32,7 +32,7 @@ struct Kinetic {
 
 impl Extent {
     /// Adds a moment's speed, and its kinetic energy (J) if the body conserves its energy.
-    pub(crate) fn add_moment(&mut self, speed: f64, kinetic_j: Option<f64>) {
+    pub fn add_moment(&mut self, speed: f64, kinetic_j: Option<f64>) {
         self.largest_speed = self.largest_speed.max(speed);
         if let Some(now) = kinetic_j {
             self.kinetic.get_or_insert_with(|| Kinetic::from(now)).add(now);
@@ -59,7 +59,7 @@ impl Extent {
     /// linear body it is at least the total energy, because the modes exchange all of that in time. `None` if energy is
     /// not conserved or exchanged, and before the motion has reached both ends of the range. A part of the range would
     /// exaggerate the drift.
-    pub(crate) fn exchanged_j(&self, truth: &dyn Stepper) -> Option<f64> {
+    pub fn exchanged_j(&self, truth: &dyn Stepper) -> Option<f64> {
         // A free rotation exchanges none, so that its energy is measured against the whole.
         if truth.body().is::<Tumble>() {
             return truth.energy();

@@ -84,14 +84,14 @@ impl Interpolation {
 
 /// Returns the cubic at the fraction `alpha` of a tick of `h` seconds, through `q` with the velocities `v` at both
 /// ends.
-pub(crate) fn hermite(alpha: f64, h: f64, q: [f64; 2], v: [f64; 2]) -> f64 {
+pub fn hermite(alpha: f64, h: f64, q: [f64; 2], v: [f64; 2]) -> f64 {
     let (a, b) = (alpha, 1.0 - alpha);
     let ends = b * b * (1.0 + 2.0 * a) * q[0] + a * a * (1.0 + 2.0 * b) * q[1];
     ends + h * a * b * (b * v[0] - a * v[1])
 }
 
 /// Returns the slope of [`hermite`].
-pub(crate) fn slope(alpha: f64, h: f64, q: [f64; 2], v: [f64; 2]) -> f64 {
+pub fn slope(alpha: f64, h: f64, q: [f64; 2], v: [f64; 2]) -> f64 {
     let (a, b) = (alpha, 1.0 - alpha);
     6.0 * a * b * (q[1] - q[0]) / h + b * (b - 2.0 * a) * v[0] + a * (a - 2.0 * b) * v[1]
 }

@@ -9,7 +9,7 @@ use crate::scene::{Action, LaneId, Scene, Scripted, nearest_tick};
 
 /// The edits by a person and the script up to the present tick.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub(crate) struct Interventions {
+pub struct Interventions {
     /// Checkpoint from which the scene starts. `None` stands for the run's start.
     start: Option<Arc<RunStart>>,
     /// Last actions on the throttle, on the rudder and on each parameter.
@@ -19,7 +19,7 @@ pub(crate) struct Interventions {
 impl Interventions {
     /// Returns the edits in `race` since its checkpoint for verdicts. A parameter that the script set counts like a
     /// person's edit. The script's throttle and rudder are part of the judged motion.
-    pub(crate) fn in_race(race: &Race, checkpoints: &Checkpoints) -> Self {
+    pub fn in_race(race: &Race, checkpoints: &Checkpoints) -> Self {
         let mut settings: Vec<Action> = Vec::new();
         let is_in_force = |row: &&JournalRow| {
             row.author == Author::Person || matches!(row.action, Action::Set { .. })
@@ -36,33 +36,33 @@ impl Interventions {
     }
 
     /// Like [`Self::in_race`], since the checkpoint for advice.
-    pub(crate) fn for_advice(race: &Race, checkpoints: &Checkpoints) -> Self {
+    pub fn for_advice(race: &Race, checkpoints: &Checkpoints) -> Self {
         Self { start: checkpoints.of_advice.clone(), ..Self::in_race(race, checkpoints) }
     }
 
     /// Whether the run was not changed since these edits were noted.
-    pub(crate) fn are_last(&self, checkpoints: &Checkpoints) -> bool {
+    pub fn are_last(&self, checkpoints: &Checkpoints) -> bool {
         self.start == checkpoints.of_verdicts
     }
 
     /// Returns the edits for a start right after the last edit, so that no later settings remain.
-    pub(crate) fn after_last_edit(checkpoints: &Checkpoints) -> Self {
+    pub fn after_last_edit(checkpoints: &Checkpoints) -> Self {
         Self { start: checkpoints.of_clouds.clone(), settings: Vec::new() }
     }
 
     /// Returns the time (s) of the run at which the [edited scene](Self::applied_to) starts.
-    pub(crate) fn starts_at_s(&self) -> f64 {
+    pub fn starts_at_s(&self) -> f64 {
         self.start.as_ref().map_or(0.0, |start| start.t)
     }
 
     /// Returns the run as a scene that starts at the checkpoint. Edited parameters have their last values from the
     /// beginning, and so do a throttle and a rudder set by hand. The script no longer sets any of these.
-    pub(crate) fn applied_to(&self, scene: &Scene) -> Scene {
+    pub fn applied_to(&self, scene: &Scene) -> Scene {
         self.started(scene, &[])
     }
 
     /// Whether a lane was not in the true state at the checkpoint.
-    pub(crate) fn differ_in(&self, lane: LaneId) -> bool {
+    pub fn differ_in(&self, lane: LaneId) -> bool {
         self.lane(lane).is_some()
     }
 
@@ -71,7 +71,7 @@ impl Interventions {
     }
 
     /// Like [`Self::applied_to`], from the state that a lane had at the checkpoint.
-    pub(crate) fn applied_to_lane(&self, scene: &Scene, lane: LaneId) -> Scene {
+    pub fn applied_to_lane(&self, scene: &Scene, lane: LaneId) -> Scene {
         self.started(scene, self.lane(lane).map_or(&[], |lane| &lane.bodies))
     }
 

@@ -96,7 +96,7 @@ impl LaneBody {
     }
 
     /// Creates a body of a scene at its start, under `solver`.
-    pub(crate) fn new(body: &SceneBody, solver: Solver) -> Self {
+    pub fn new(body: &SceneBody, solver: Solver) -> Self {
         let stepper = (body.kind.build)(&body.values, solver);
         let state = [stepper.q(), stepper.v()].map(<[f64]>::to_vec);
         let [previous_q, previous_v] = state.clone();
@@ -145,7 +145,7 @@ impl LaneBody {
     }
 
     /// Returns the quantity with this name in words, and the quantity's unit with a space in front, if it has one.
-    pub(crate) fn quantity(&self, name: &str) -> (String, String) {
+    pub fn quantity(&self, name: &str) -> (String, String) {
         let coordinates = self.coordinates();
         let several = coordinates.len() > 1;
         let velocity = coordinates.iter().find(|coordinate| *coordinate.velocity == *name);
@@ -182,12 +182,12 @@ impl LaneBody {
     }
 
     /// Returns the drawing by the author of a custom body; `None` for the default drawing.
-    pub(crate) fn drawing(&self) -> Option<&Drawing> {
+    pub fn drawing(&self) -> Option<&Drawing> {
         self.appearance.drawing.as_deref()
     }
 
     /// Returns the motion of a law, a net or a custom body in its first seconds.
-    pub(crate) fn preview(&self) -> Arc<Preview> {
+    pub fn preview(&self) -> Arc<Preview> {
         self.appearance.preview(&self.kind, self.stepper.body())
     }
 
@@ -198,7 +198,7 @@ impl LaneBody {
     }
 
     /// Returns the values whose coordinate has the unit of the first coordinate. `values` has one value per coordinate.
-    pub(crate) fn like_first(&self, values: &[f64]) -> impl Iterator<Item = f64> {
+    pub fn like_first(&self, values: &[f64]) -> impl Iterator<Item = f64> {
         let units = self.kind.all_coordinates.units();
         let first = units.clone().next();
         units.zip(values).filter(move |(unit, _)| Some(*unit) == first).map(|(_, &value)| value)
@@ -382,7 +382,7 @@ impl LaneBody {
 ///
 /// # Errors
 /// If the body's solver fails, or if a coordinate or a velocity is not finite or is beyond [`ESCAPE`].
-pub(crate) fn advance_checked(
+pub fn advance_checked(
     body: &mut dyn Stepper,
     coordinates: &Coordinates,
     (t, h): (f64, f64),
@@ -468,7 +468,7 @@ impl Lane {
 
     /// Applies an action to the bodies at time `t` (s), before tick `tick`. A halted body resumes if an action places
     /// it. If a body cannot be in the new state, it keeps its own and halts.
-    pub(crate) fn act(&mut self, tick: u64, t: f64, action: &Action) {
+    pub fn act(&mut self, tick: u64, t: f64, action: &Action) {
         match action {
             Action::Place { body, q, v } => self.bodies[*body].place(*body, tick, t, [q, v]),
             Action::Push { body, .. } => self.bodies[*body].push(*body, tick, t, action),

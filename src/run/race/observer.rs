@@ -17,7 +17,7 @@ pub struct PerformedAction {
     /// Halted bodies that resume because of the action; empty before the race performs it.
     pub resumed: Vec<Resumed>,
     /// The control that a person took from the script by this action; observers do not see it.
-    pub(crate) released: Option<Control>,
+    pub released: Option<Control>,
 }
 
 /// A lane that changes to another method, other substeps or another tolerance.

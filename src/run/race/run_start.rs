@@ -85,7 +85,7 @@ impl RunStart {
 
 /// The checkpoints of a run up to its present tick.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Checkpoints {
+pub struct Checkpoints {
     /// The state right after a person last changed the run, or the script a method, a parameter, the tick rate or the
     /// state of a body. The script's throttle and rudder are part of the judged run.
     pub(super) of_verdicts: Option<Arc<RunStart>>,
@@ -103,7 +103,7 @@ impl Checkpoints {
     }
 
     /// Returns the time (s) of the run at which verdicts start.
-    pub(crate) fn verdicts_start_at_s(&self) -> f64 {
+    pub fn verdicts_start_at_s(&self) -> f64 {
         self.of_verdicts.as_ref().map_or(0.0, |start| start.t)
     }
 }

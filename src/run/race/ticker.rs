@@ -26,9 +26,9 @@ pub trait Ticked {
 ///
 /// ```
 /// use std::ops::ControlFlow;
-/// use regatta::run::race::{Ticker, Lane, StopReason};
-/// use regatta::scene::Scene;
-/// use regatta::sim::{Solver, integrators::method};
+/// use regatta_run::race::{Ticker, Lane, StopReason};
+/// use regatta_scene::Scene;
+/// use regatta_sim::{Solver, integrators::method};
 ///
 /// let scene = Scene::built_in("spring").expect("a built-in scene");
 /// let lane = Lane::new(&scene, Solver::Method(method("rk4").expect("a method")), 1);

@@ -4,11 +4,11 @@ use crate::sim::bodies::{Grid, Lists, NetLayout, NetPlan};
 
 /// A line through successive nodes that are joined by springs.
 #[derive(Debug)]
-pub(crate) struct NodeLine {
+pub struct NodeLine {
     /// Indices of the nodes.
-    pub(crate) nodes: Vec<usize>,
+    pub nodes: Vec<usize>,
     /// Whether the line belongs to the border, which alone shows the place of the net.
-    pub(crate) is_border: bool,
+    pub is_border: bool,
 }
 
 /// Maximum number of drawn rows and of drawn columns of a grid. On a stage of a thousand pixels, threads nearer than

@@ -1,15 +1,15 @@
 //! The commands `set`, `place` and `push`, which change one body.
 
 use super::{NAME, SceneContext, inline};
-use crate::scene::clip::clip;
-use crate::scene::described::BodyDraft;
-use crate::scene::edit::edited_values;
-use crate::scene::keys::{numbers, quoted};
-use crate::scene::nearest::{listed, nearest, offer};
-use crate::scene::table::Table;
-use crate::scene::wanted::{Field, Wanted};
-use crate::scene::{Action, Scene};
+use crate::clip::clip;
+use crate::described::BodyDraft;
+use crate::edit::edited_values;
+use crate::keys::{numbers, quoted};
+use crate::nearest::{listed, nearest, offer};
 use crate::sim::bodies::{Parameter, Range, TakesEffect};
+use crate::table::Table;
+use crate::wanted::{Field, Wanted};
+use crate::{Action, Scene};
 
 pub(super) const BODY: Field = Field::required("body", "the body's name", NAME);
 pub(super) const KEY: Field = Field::required("key", "the parameter's key", NAME);
@@ -27,7 +27,7 @@ pub(super) const TICKS: Field = Field::optional(
 pub(super) const MAX_PULL_TICKS: usize = 10_000;
 
 /// The keys of `set`, `place` and `push`.
-pub(in crate::scene) static OF_A_BODY: [(&str, &[Field]); 3] =
+pub(crate) static OF_A_BODY: [(&str, &[Field]); 3] =
     [("set", &[BODY, KEY, VALUE]), ("place", &[BODY, Q, V]), ("push", &[BODY, BY, TICKS])];
 
 /// Returns the value of `push` for a pull of this many ticks.
@@ -135,7 +135,7 @@ pub(super) fn on_each_tick(context: &SceneContext<'_>, action: Action) -> Vec<Ac
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::{Check, LaneId, Scripted};
+    use crate::{Check, LaneId, Scripted};
 
     /// The commands of a recording of the orbit with these pushes.
     fn recording(pushes: impl IntoIterator<Item = (u64, [f64; 2])>) -> Scene {

@@ -6,14 +6,14 @@ use toml::Spanned;
 use toml::de::DeValue;
 
 use super::{Table, integer, number};
-use crate::scene::MAX_COORDINATE;
-use crate::scene::wanted::{Field, Wanted};
+use crate::MAX_COORDINATE;
 use crate::sim::bodies::{MAX_NODES, MAX_POINTS, MAX_VALUE, Range};
 use crate::sim::number::counted;
+use crate::wanted::{Field, Wanted};
 
 impl Table<'_> {
     /// Reads the points of a curve, in rising order of their first numbers. At most [`MAX_POINTS`] are read.
-    pub(in crate::scene) fn curve(&mut self, field: &Field) -> Option<Vec<[f64; 2]>> {
+    pub(crate) fn curve(&mut self, field: &Field) -> Option<Vec<[f64; 2]>> {
         let (value, entries) = self.list(field)?;
         let Field { key, wanted, .. } = field;
         let found = entries.len();
@@ -69,7 +69,7 @@ impl Table<'_> {
     }
 
     /// Reads a list of places in the plane. At most one more than [`MAX_NODES`] are read.
-    pub(in crate::scene) fn points(&mut self, field: &Field) -> Option<Vec<[f64; 2]>> {
+    pub(crate) fn points(&mut self, field: &Field) -> Option<Vec<[f64; 2]>> {
         let (_, entries) = self.list(field)?;
         let read = entries.iter().take(MAX_NODES + 1).enumerate();
         read.map(|(node, entry)| self.place(node, entry)).collect()
@@ -82,10 +82,7 @@ impl Table<'_> {
     }
 
     /// Reads the indices of nodes in a list, with their bytes.
-    pub(in crate::scene) fn node_numbers(
-        &mut self,
-        field: &Field,
-    ) -> Option<Vec<(Span<usize>, usize)>> {
+    pub(crate) fn node_numbers(&mut self, field: &Field) -> Option<Vec<(Span<usize>, usize)>> {
         let (_, entries) = self.list(field)?;
         let mut numbers = Vec::new();
         for entry in entries {
@@ -102,12 +99,12 @@ impl Table<'_> {
     }
 
     /// Reads as many numbers as [`Wanted::Numbers`] demands, each of a magnitude of at most [`MAX_COORDINATE`].
-    pub(in crate::scene) fn coordinates(&mut self, field: &Field) -> Option<Vec<f64>> {
+    pub(crate) fn coordinates(&mut self, field: &Field) -> Option<Vec<f64>> {
         self.numbers(field, Range::Within(MAX_COORDINATE))
     }
 
     /// Reads as many numbers as [`Wanted::Numbers`] demands, each in this range.
-    pub(in crate::scene) fn numbers(&mut self, field: &Field, range: Range) -> Option<Vec<f64>> {
+    pub(crate) fn numbers(&mut self, field: &Field, range: Range) -> Option<Vec<f64>> {
         let value = self.value(field)?;
         let entries = value.get_ref().as_array();
         let numbers: Option<Vec<f64>> =

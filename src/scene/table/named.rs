@@ -6,21 +6,21 @@ use toml::Spanned;
 use toml::de::DeValue;
 
 use super::{Table, number};
-use crate::scene::clip;
-use crate::scene::wanted::{Field, Place, Wanted};
+use crate::clip;
 use crate::sim::bodies;
+use crate::wanted::{Field, Place, Wanted};
 
 /// An entry whose key the file chooses.
-pub(in crate::scene) struct Named<'t> {
-    pub(in crate::scene) key: &'t str,
+pub(crate) struct Named<'t> {
+    pub(crate) key: &'t str,
     /// The bytes of the key.
-    pub(in crate::scene) span: Range<usize>,
+    pub(crate) span: Range<usize>,
     value: &'t Spanned<DeValue<'t>>,
 }
 
 /// An expression with its place in the file.
-pub(in crate::scene) struct TextBlock {
-    pub(in crate::scene) text: String,
+pub(crate) struct TextBlock {
+    pub(crate) text: String,
     /// The bytes of the string, quotes included.
     span: Range<usize>,
     /// Byte at which the text begins verbatim; `None` if the string has escapes.
@@ -30,7 +30,7 @@ pub(in crate::scene) struct TextBlock {
 impl TextBlock {
     /// Returns the bytes of the file for these bytes of the expression; if the string has escapes, the bytes of the
     /// whole string.
-    pub(in crate::scene) fn span_in_file(&self, span: &Range<usize>) -> Range<usize> {
+    pub(crate) fn span_in_file(&self, span: &Range<usize>) -> Range<usize> {
         match self.start {
             Some(start) if !span.is_empty() => start + span.start..start + span.end,
             _ => self.span.clone(),
@@ -40,7 +40,7 @@ impl TextBlock {
 
 impl<'t> Table<'t> {
     /// Reads the entries of the table with this key, in the order of the file.
-    pub(in crate::scene) fn entries(&mut self, field: &Field) -> Option<Vec<Named<'t>>> {
+    pub(crate) fn entries(&mut self, field: &Field) -> Option<Vec<Named<'t>>> {
         let value = self.value(field)?;
         let Some(entries) = value.get_ref().as_table() else {
             return self.wrong_type(field, value);
@@ -55,11 +55,7 @@ impl<'t> Table<'t> {
     }
 
     /// Reads the number of an entry.
-    pub(in crate::scene) fn number_of(
-        &mut self,
-        entry: &Named<'t>,
-        range: bodies::Range,
-    ) -> Option<f64> {
+    pub(crate) fn number_of(&mut self, entry: &Named<'t>, range: bodies::Range) -> Option<f64> {
         let (wanted, subject) = (Wanted::Number(range), format!("`{}`", clip(entry.key)));
         let Some(number) = number(entry.value) else {
             return self.wrong_type_of(subject, entry.value, &wanted);
@@ -71,11 +67,7 @@ impl<'t> Table<'t> {
     }
 
     /// Reads the table of an entry of [`Wanted::Coordinates`].
-    pub(in crate::scene) fn table_of(
-        &mut self,
-        entry: &Named<'t>,
-        wanted: &Wanted,
-    ) -> Option<Table<'t>> {
+    pub(crate) fn table_of(&mut self, entry: &Named<'t>, wanted: &Wanted) -> Option<Table<'t>> {
         match (entry.value.get_ref().as_table(), wanted) {
             (Some(entries), Wanted::Coordinates(place)) => {
                 Some(self.subtable(Place::Within(place), entry.span.clone(), entries))
@@ -85,7 +77,7 @@ impl<'t> Table<'t> {
     }
 
     /// Reads the tables of springs in a list, in the order of the file.
-    pub(in crate::scene) fn spring_rows(&mut self, field: &Field) -> Option<Vec<Table<'t>>> {
+    pub(crate) fn spring_rows(&mut self, field: &Field) -> Option<Vec<Table<'t>>> {
         let (_, entries) = self.list(field)?;
         let mut rows = Vec::new();
         for entry in entries {
@@ -104,14 +96,14 @@ impl<'t> Table<'t> {
     }
 
     /// Reads an expression, in which a line break counts as a space.
-    pub(in crate::scene) fn expression(&mut self, field: &Field) -> Option<TextBlock> {
+    pub(crate) fn expression(&mut self, field: &Field) -> Option<TextBlock> {
         let written = self.text_block(field)?;
         let text = written.text.replace(['\n', '\r', '\t'], " ");
         Some(TextBlock { text, ..written })
     }
 
     /// Reads a text of several lines.
-    pub(in crate::scene) fn text_block(&mut self, field: &Field) -> Option<TextBlock> {
+    pub(crate) fn text_block(&mut self, field: &Field) -> Option<TextBlock> {
         let value = self.value(field)?;
         let Some(text) = value.get_ref().as_str() else { return self.wrong_type(field, value) };
         let span = value.span();
@@ -120,10 +112,7 @@ impl<'t> Table<'t> {
     }
 
     /// Reads the names in a list of strings, with their bytes.
-    pub(in crate::scene) fn names(
-        &mut self,
-        field: &Field,
-    ) -> Option<Vec<(Range<usize>, &'t str)>> {
+    pub(crate) fn names(&mut self, field: &Field) -> Option<Vec<(Range<usize>, &'t str)>> {
         let value = self.value(field)?;
         let entries = value.get_ref().as_array();
         let name =

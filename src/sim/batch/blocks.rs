@@ -5,9 +5,9 @@ use std::ops::Range;
 
 use super::instruction_set::{InstructionSet, Kernel, NARROW, WIDE};
 use super::{Advance, Chunks, Copies, Ticks};
-use crate::sim::integrators::{Construct, Integrator, Method, MethodOf};
-use crate::sim::state::State;
-use crate::sim::system::System;
+use crate::integrators::{Construct, Integrator, Method, MethodOf};
+use crate::state::State;
+use crate::system::System;
 
 /// The number of copies that a thread handles at a time. Their state is 64 KiB, which fits the second-level cache of
 /// every processor. The number is a multiple of every block width.
@@ -42,7 +42,7 @@ fn construct<C: Copies, const W: usize>(
 ) -> Option<Box<dyn Advance>> {
     let make =
         Make::<C, W> { copies: copies.clone(), set, count, has_memory: method.restart.is_some() };
-    crate::sim::integrators::construct_in_blocks(method, make)
+    crate::integrators::construct_in_blocks(method, make)
 }
 
 struct Make<C, const W: usize> {

@@ -58,7 +58,7 @@ impl InstructionSet {
     ///
     /// # Panics
     /// If blocks of the loop's width do not run on this set.
-    pub(in crate::sim) fn run<K: Kernel>(self, kernel: K) {
+    pub(crate) fn run<K: Kernel>(self, kernel: K) {
         // Compiles a loop only for the sets that it can run on.
         match self {
             Self::Portable if const { Self::Portable.runs_blocks_of(K::WIDTH) } => kernel.run(),
@@ -70,7 +70,7 @@ impl InstructionSet {
 }
 
 /// A loop to be compiled for an instruction set.
-pub(in crate::sim) trait Kernel {
+pub(crate) trait Kernel {
     /// Number of copies in a block of the loop; `None` if every instruction set can run the loop.
     const WIDTH: Option<usize> = None;
 

@@ -17,7 +17,7 @@ use rayon::prelude::*;
 use blocks::in_blocks;
 pub use instruction_set::InstructionSet;
 #[cfg(feature = "lab")]
-pub(in crate::sim) use instruction_set::Kernel;
+pub(crate) use instruction_set::Kernel;
 use one_by_one::one_by_one;
 
 use super::integrators::{Method, Problem, problem, steps_in_blocks};
@@ -86,7 +86,7 @@ impl Ticks {
 }
 
 /// Advances the copies of a batch.
-pub(in crate::sim) trait Advance: Send {
+pub(crate) trait Advance: Send {
     /// Steps the copies with these coordinates and velocities through `ticks`.
     fn advance(&mut self, ticks: Ticks, q: &mut [f64], v: &mut [f64]);
 
@@ -97,10 +97,10 @@ pub(in crate::sim) trait Advance: Send {
 /// Copies of a body of one coordinate, all under one method.
 ///
 /// ```
-/// # use regatta::sim::State;
-/// # use regatta::sim::batch::{Batch, Ticks};
-/// # use regatta::sim::integrators::method;
-/// # use regatta::sim::System;
+/// # use regatta_sim::State;
+/// # use regatta_sim::batch::{Batch, Ticks};
+/// # use regatta_sim::integrators::method;
+/// # use regatta_sim::System;
 /// #[derive(Clone)]
 /// struct Spring;
 /// impl System for Spring {
@@ -164,7 +164,7 @@ impl Batch {
         Self::with(&Uniform(system.clone()), solver, starts, set)
     }
 
-    pub(in crate::sim) fn with<C: Copies>(
+    pub(crate) fn with<C: Copies>(
         copies: &C,
         solver: Solver,
         starts: impl ExactSizeIterator<Item = State<f64>>,
@@ -179,7 +179,7 @@ impl Batch {
 
     /// Makes a batch of copies with these starts. `advance` makes what steps them, for the number of copies and that in
     /// whole blocks, once there is room for the states.
-    pub(in crate::sim) fn of(
+    pub(crate) fn of(
         starts: impl ExactSizeIterator<Item = State<f64>>,
         advance: impl FnOnce(usize, usize) -> Box<dyn Advance>,
     ) -> NewBatch {
@@ -248,7 +248,7 @@ impl Batch {
 }
 
 /// Copies of a body of one coordinate, to be stepped in blocks or one by one.
-pub(in crate::sim) trait Copies: Clone + Send + Sync + 'static {
+pub(crate) trait Copies: Clone + Send + Sync + 'static {
     /// Whether evaluations are interpreted; wide blocks then share the cost of each look-up.
     const IS_INTERPRETED: bool = false;
 
@@ -272,7 +272,7 @@ impl<S: System<Vector = f64> + Clone + Send + Sync + 'static> OneCoordinate for 
 struct Uniform<S>(S);
 
 /// A block of [`Uniform`].
-pub(in crate::sim) struct UniformBlock<S, const W: usize>(pub(in crate::sim) S);
+pub(crate) struct UniformBlock<S, const W: usize>(pub(crate) S);
 
 impl<S: OneCoordinate> Copies for Uniform<S> {
     type Block<const W: usize> = UniformBlock<S, W>;
@@ -301,14 +301,14 @@ impl<S: System<Vector = f64>, const W: usize> System for UniformBlock<S, W> {
 ///
 /// Each part of neighbouring copies advances itself, so that one loop shares the work among threads for methods and
 /// bodies of every type.
-pub(in crate::sim) struct Chunks {
+pub(crate) struct Chunks {
     grain: usize,
     parts: Vec<Box<dyn Advance>>,
 }
 
 impl Chunks {
     /// Splits `count` copies into parts of `grain`; the last part may be smaller.
-    pub(in crate::sim) fn new(
+    pub(crate) fn new(
         grain: usize,
         count: usize,
         part: impl FnMut(Range<usize>) -> Box<dyn Advance>,

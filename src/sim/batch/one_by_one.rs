@@ -3,9 +3,9 @@
 use std::ops::Range;
 
 use super::{Advance, Chunks, Copies, Ticks};
-use crate::sim::integrators::{Integrator, Problem, fresh};
-use crate::sim::state::State;
-use crate::sim::stepper::Solver;
+use crate::integrators::{Integrator, Problem, fresh};
+use crate::state::State;
+use crate::stepper::Solver;
 
 /// Neighbouring copies, each with its own integrator.
 struct OneByOne<C> {

@@ -6,7 +6,7 @@
 use std::cell::RefCell;
 
 use super::prelude::*;
-use crate::sim::impact::Wall;
+use crate::impact::Wall;
 
 pub(super) fn kind() -> Kind {
     Kind {

@@ -7,11 +7,11 @@
 use std::cell::OnceCell;
 use std::sync::{Arc, Mutex, PoisonError};
 
-use crate::sim::TickRate;
-use crate::sim::body::Body;
-use crate::sim::numerics::XorShift;
-use crate::sim::reference::Reference;
-use crate::sim::state::State;
+use crate::TickRate;
+use crate::body::Body;
+use crate::numerics::XorShift;
+use crate::reference::Reference;
+use crate::state::State;
 
 /// The times in seconds at which claims are checked against the equation, which are the start and a wide range of
 /// scales after it.

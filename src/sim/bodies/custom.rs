@@ -6,8 +6,8 @@ use std::sync::Arc;
 use super::claims::{Checked, FalseClaims};
 use super::kind::CustomInfo;
 use super::prelude::*;
-use crate::sim::state::{Vector, bytes_with_vectors};
-use crate::sim::system::StateOf;
+use crate::state::{Vector, bytes_with_vectors};
+use crate::system::StateOf;
 
 mod claims;
 mod kind;
@@ -35,7 +35,7 @@ pub struct Custom {
 impl Custom {
     /// Returns a body that moves as `system` does, without names, parameters and kicks. The claims of `extras` are not
     /// checked.
-    pub(in crate::sim) fn unnamed<S>(system: S, start: &StateOf<S>, extras: &Extras<S>) -> Self
+    pub(crate) fn unnamed<S>(system: S, start: &StateOf<S>, extras: &Extras<S>) -> Self
     where
         S: System<Vector: Vector> + Clone + Send + 'static,
     {

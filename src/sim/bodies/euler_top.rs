@@ -10,8 +10,8 @@ use std::f64::consts::{FRAC_PI_2, PI};
 
 use glam::{DQuat, DVec3};
 
-use crate::sim::double_double::DoubleDouble;
-use crate::sim::spin::{Spin, axes_by_moment, turn_by};
+use crate::double_double::DoubleDouble;
+use crate::spin::{Spin, axes_by_moment, turn_by};
 
 /// Returns the state `t` (s) after `from`, for these principal moments (kg m²).
 pub(super) fn flow(moments: DVec3, from: &Spin, t: f64) -> Spin {

@@ -8,8 +8,8 @@
 use glam::DVec3;
 
 use super::prelude::*;
-use crate::sim::body::{Distances, NO_BOUNDARIES, Piece};
-use crate::sim::curve::Curve;
+use crate::body::{Distances, NO_BOUNDARIES, Piece};
+use crate::curve::Curve;
 
 pub(super) fn kind() -> Kind {
     Kind {

@@ -12,8 +12,8 @@ use std::f64::consts::TAU;
 
 use glam::DVec2;
 
-use crate::sim::State;
-use crate::sim::double_double::{DoubleDouble, TWO_PI};
+use crate::State;
+use crate::double_double::{DoubleDouble, TWO_PI};
 
 /// The maximum number of steps to the root before it is refined. Bisection of a bracket down to the last digit needs
 /// fewer.

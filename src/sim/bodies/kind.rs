@@ -4,16 +4,16 @@ use std::any::Any;
 use std::fmt;
 use std::sync::{Arc, Mutex, PoisonError};
 
-use crate::sim::batch::{Batch, InstructionSet, NewBatch};
-use crate::sim::body::Body;
-use crate::sim::body_stepper::stepper;
-use crate::sim::law::{Equations, shown_unit};
-use crate::sim::net_plan::NetPlan;
-use crate::sim::parameter::{Fault, Parameter, ParameterOf, Text};
-use crate::sim::reference::REFERENCE_ACCURACY;
-use crate::sim::state::State;
-use crate::sim::stepper::{Solver, Stepper};
-use crate::sim::system::{BodyClass, EngineSettings};
+use crate::batch::{Batch, InstructionSet, NewBatch};
+use crate::body::Body;
+use crate::body_stepper::stepper;
+use crate::law::{Equations, shown_unit};
+use crate::net_plan::NetPlan;
+use crate::parameter::{Fault, Parameter, ParameterOf, Text};
+use crate::reference::REFERENCE_ACCURACY;
+use crate::state::State;
+use crate::stepper::{Solver, Stepper};
+use crate::system::{BodyClass, EngineSettings};
 
 /// The kind of solution with which methods are compared.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -22,7 +22,7 @@ pub enum Truth {
     Exact,
     /// A numerical solution that aims at [`REFERENCE_ACCURACY`] and estimates its error on each run.
     ///
-    /// [`REFERENCE_ACCURACY`]: crate::sim::REFERENCE_ACCURACY
+    /// [`REFERENCE_ACCURACY`]: crate::REFERENCE_ACCURACY
     Reference,
 }
 
@@ -45,7 +45,7 @@ impl Truth {
 
     /// Returns the error that a reference solution aims at, [`REFERENCE_ACCURACY`]; `None` for an exact truth.
     ///
-    /// [`REFERENCE_ACCURACY`]: crate::sim::REFERENCE_ACCURACY
+    /// [`REFERENCE_ACCURACY`]: crate::REFERENCE_ACCURACY
     pub fn aimed_accuracy(self) -> Option<f64> {
         match self {
             Truth::Exact => None,
@@ -83,7 +83,7 @@ pub struct Kind {
     pub leading: Text,
     /// Whether the truth of the body is a closed form or a reference solution.
     pub truth: Truth,
-    /// Whether such bodies meet walls, whose impacts follow a rule of [`IMPACTS`](crate::sim::IMPACTS).
+    /// Whether such bodies meet walls, whose impacts follow a rule of [`IMPACTS`](crate::IMPACTS).
     pub has_walls: bool,
     /// Checks combinations of values, each of which is in range.
     pub check: Box<Check>,

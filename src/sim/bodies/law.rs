@@ -5,8 +5,8 @@ use std::sync::Arc;
 
 use super::claims::{Checked, Claimant, FalseClaims};
 use super::prelude::*;
-use crate::sim::body::{Distances, NO_BOUNDARIES, Piece};
-use crate::sim::law::{At, Equations, Layout, Registers};
+use crate::body::{Distances, NO_BOUNDARIES, Piece};
+use crate::law::{At, Equations, Layout, Registers};
 
 mod claims;
 mod copies;

@@ -2,7 +2,7 @@
 //! steps.
 //!
 //! A body is a closed system with natural coordinates, and with an exact flow if it has a closed form. The [`Kind`]
-//! card of a body explains how a scene describes the body, and [`Look`](crate::look::Look) how the body is drawn. To
+//! card of a body explains how a scene describes the body, and `Look` how the body is drawn. To
 //! add a body, copy `pendulum.rs`, declare the copy, and name it in [`BODIES`].
 
 use std::sync::{Arc, LazyLock};
@@ -76,7 +76,7 @@ pub fn kind(id: &str) -> Option<&'static Arc<Kind>> {
 }
 
 /// Returns the reason why `method` does not step a body of `kind` with these parameter values; `None` if it does. The
-/// method's [card](crate::sim::integrators::Only) or the body's [class](Kind::class) gives the reason.
+/// method's [card](crate::integrators::Only) or the body's [class](Kind::class) gives the reason.
 pub fn incompatibility(method: &Method, kind: &Kind, values: &[f64]) -> Option<&'static str> {
     let only = method.only?;
     let is_of = |order: u32| {

@@ -9,8 +9,8 @@ use std::sync::{Arc, LazyLock};
 
 use super::kind::{Coordinates, Origin};
 use super::prelude::*;
-use crate::sim::net_plan::{NetFault, NetPlan, PlannedSpring, distance};
-use crate::sim::parameter::Parameter;
+use crate::net_plan::{NetFault, NetPlan, PlannedSpring, distance};
+use crate::parameter::Parameter;
 use forces::{Accelerations, Derivatives, Forces};
 use topology::Topology;
 

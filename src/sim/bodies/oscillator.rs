@@ -1,6 +1,6 @@
 //! The closed form of the damped oscillator `x″ = -ω² x - 2 α x′`, which is a spring or a mode of a chain.
 
-use crate::sim::State;
+use crate::State;
 
 /// Returns the exact state `dt` seconds after `from`, for `omega2` = ω² > 0 and `alpha` = α ≥ 0. The oscillator may be
 /// underdamped, critical or overdamped.

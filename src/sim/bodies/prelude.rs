@@ -3,7 +3,7 @@
 pub(super) use glam::DVec2;
 
 pub(super) use super::kind::{Coordinate, Kind};
-pub(super) use crate::sim::body::{Body, Input};
-pub(super) use crate::sim::parameter::{Fault, ParameterOf, Range};
-pub(super) use crate::sim::state::State;
-pub(super) use crate::sim::system::{BodyClass, Coupling, Pursuit, Query, System};
+pub(super) use crate::body::{Body, Input};
+pub(super) use crate::parameter::{Fault, ParameterOf, Range};
+pub(super) use crate::state::State;
+pub(super) use crate::system::{BodyClass, Coupling, Pursuit, Query, System};

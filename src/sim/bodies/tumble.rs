@@ -1,13 +1,13 @@
 //! A rigid body that turns freely in space: `ω′ = -I⁻¹(ω × Iω)`, and its attitude.
 //!
-//! The [coordinates](crate::sim::spin) leave the step of ω to ω alone, so that a general method makes of it exactly
+//! The [coordinates](crate::spin) leave the step of ω to ω alone, so that a general method makes of it exactly
 //! the map of the engine that steps ω so.
 
 use glam::{DQuat, DVec3};
 
 use super::euler_top;
 use super::prelude::*;
-use crate::sim::spin::{
+use crate::spin::{
     Spin, axes_by_moment, free_acceleration, free_jerk, pure, quaternion_at, seen_from,
     unit_attitude,
 };

@@ -6,9 +6,9 @@ use glam::DVec2;
 
 use super::problems::{Kepler, Problem, fresh, kepler_orbit, problem, spring};
 use super::{Claim, Measured, yes_or_no};
-use crate::sim::integrators::{Method, StepFailure, integrator};
-use crate::sim::state::{State, Vector};
-use crate::sim::system::System;
+use crate::integrators::{Method, StepFailure, integrator};
+use crate::state::{State, Vector};
+use crate::system::System;
 
 /// Returns the number of evaluations of the first step, and the different numbers of the `steps` later steps.
 fn costs<V: Vector>(

@@ -2,9 +2,9 @@
 
 use super::problems::{Problem, UnitPendulum, fixed_step, problem, spring};
 use super::{Claim, Measured, yes_or_no};
-use crate::sim::integrators::{Method, StepFailure};
-use crate::sim::numerics::{OFFSETS, fourth_order};
-use crate::sim::state::State;
+use crate::integrators::{Method, StepFailure};
+use crate::numerics::{OFFSETS, fourth_order};
+use crate::state::State;
 
 /// The length of a step in seconds, large enough that a violation is far above round-off.
 const STEP: f64 = 0.8;

@@ -2,9 +2,9 @@
 
 use super::problems::{SHIP, fresh, problem, spring};
 use super::{Claim, Measured, yes_or_no};
-use crate::sim::body::Body;
-use crate::sim::integrators::{Method, StepFailure};
-use crate::sim::state::nan_is_infinite;
+use crate::body::Body;
+use crate::integrators::{Method, StepFailure};
+use crate::state::nan_is_infinite;
 
 /// An error below this number is rounding, summed over all steps.
 const EXACT: f64 = 1e-13;

@@ -2,8 +2,8 @@
 
 use super::problems::{Problem, fresh, problem, spring};
 use super::{Claim, Measured, yes_or_no};
-use crate::sim::integrators::{Integrator, Method, StepFailure, Stepped};
-use crate::sim::state::State;
+use crate::integrators::{Integrator, Method, StepFailure, Stepped};
+use crate::state::State;
 
 /// Makes one step of a lively damped spring.
 fn step(integrator: &mut dyn Integrator<Problem<f64>>, state: &mut State<f64>) -> Stepped {

@@ -4,9 +4,9 @@ use super::Claim;
 use super::problems::{
     Air, Kepler, Problem, SHIP, course_in_air, fixed_step, kepler_orbit, problem, spring,
 };
-use crate::sim::body::Body;
-use crate::sim::integrators::Method;
-use crate::sim::state::{State, Vector};
+use crate::body::Body;
+use crate::integrators::Method;
+use crate::state::{State, Vector};
 
 /// Number of halvings that must agree.
 const HALVINGS: usize = 4;

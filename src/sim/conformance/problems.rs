@@ -2,12 +2,12 @@
 
 use glam::DVec2;
 
-use crate::sim::bodies::{Ship, Spring};
-use crate::sim::integrators::{Integrator, Method, Override, integrator};
-use crate::sim::state::{State, Vector};
-use crate::sim::system::System;
+use crate::bodies::{Ship, Spring};
+use crate::integrators::{Integrator, Method, Override, integrator};
+use crate::state::{State, Vector};
+use crate::system::System;
 
-pub use crate::sim::integrators::{Problem, fresh, problem};
+pub use crate::integrators::{Problem, fresh, problem};
 
 /// Returns a fresh integrator that steps exactly as asked. If it is adaptive, its tolerance is set so large that it
 /// never shortens a step.

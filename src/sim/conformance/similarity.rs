@@ -5,10 +5,10 @@ use std::sync::LazyLock;
 
 use super::problems::{Air, Problem, UnitPendulum, fresh, problem};
 use super::stability::{map_of, small_motion};
-use crate::sim::integrators::{Family, METHODS, Method};
-use crate::sim::number::{significant, superscript};
-use crate::sim::numerics::{XorShift, least_squares};
-use crate::sim::state::State;
+use crate::integrators::{Family, METHODS, Method};
+use crate::number::{significant, superscript};
+use crate::numerics::{XorShift, least_squares};
+use crate::state::State;
 
 /// The highest degree of the map in `k` and `c`, which is the number of evaluations in a row that each depend on the
 /// one before.

@@ -2,12 +2,12 @@
 
 use super::Claim;
 use super::problems::{fresh, problem, spring};
-use crate::sim::bodies::Spring;
-use crate::sim::integrators::{DAMPING_RATIOS, Method, StepFailure};
-use crate::sim::numerics::bisect;
-use crate::sim::stability::{CoupledMotion, SmallMotion};
-use crate::sim::state::{State, nan_is_infinite};
-use crate::sim::{Solver, stepper};
+use crate::bodies::Spring;
+use crate::integrators::{DAMPING_RATIOS, Method, StepFailure};
+use crate::numerics::bisect;
+use crate::stability::{CoupledMotion, SmallMotion};
+use crate::state::{State, nan_is_infinite};
+use crate::{Solver, stepper};
 
 /// The largest amplitude that counts as bounded, from an amplitude of 1. At 0.99 of the limit of a symplectic map, the
 /// ellipse of the motion is 7 to 14 times as long as it is wide.

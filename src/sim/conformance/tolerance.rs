@@ -2,9 +2,9 @@
 
 use super::problems::{Kepler, Problem, fresh, kepler_orbit, problem, spring};
 use super::{Claim, Measured, yes_or_no};
-use crate::sim::body::Body;
-use crate::sim::integrators::{Method, Override, StepFailure, integrator};
-use crate::sim::state::{State, Vector, nan_is_infinite};
+use crate::body::Body;
+use crate::integrators::{Method, Override, StepFailure, integrator};
+use crate::state::{State, Vector, nan_is_infinite};
 
 /// The accepted range of the error, in units of the tolerance. A smaller error is wasted work.
 const MET: std::ops::Range<f64> = 0.1..3.0;

@@ -8,10 +8,10 @@ use super::engine_bounce::EngineBounce;
 use super::free_spin::FreeSpin;
 use super::integrator::Tolerance;
 use super::joint_mode::JointMode;
-use crate::sim::TickRate;
+use crate::TickRate;
 #[cfg(feature = "lab")]
-use crate::sim::law::OwnLines;
-use crate::sim::system::{BodyClass, Coupling};
+use crate::law::OwnLines;
+use crate::system::{BodyClass, Coupling};
 
 /// The families of methods, for menus and tables.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -300,7 +300,7 @@ pub struct Method {
     /// [`custom_integrator`](super::custom_integrator) of the method's type. `None` for methods of the table.
     pub custom: Option<fn(usize) -> Box<dyn AnyIntegrator>>,
     /// The lines of a method or a rule that a person wrote, which is not in [`METHODS`](super::METHODS) either; see
-    /// [`own_method`](crate::sim::own_method()) and [`own_rule`](crate::sim::own_rule()).
+    /// [`own_method`](crate::own_method()) and [`own_rule`](crate::own_rule()).
     #[cfg(feature = "lab")]
     pub own: Option<&'static OwnLines>,
 }
@@ -369,7 +369,7 @@ impl Method {
 
     /// Returns an upper bound on how many numbers the method keeps on the heap besides its own vectors, for `n`
     /// coordinates with this coupling. A custom method counts as one with sixteen vectors.
-    pub(in crate::sim) fn numbers_kept(&self, n: usize, coupling: Coupling) -> usize {
+    pub(crate) fn numbers_kept(&self, n: usize, coupling: Coupling) -> usize {
         let matrices = self.matrices as usize;
         match coupling.reach(n) {
             #[cfg(feature = "lab")]

@@ -3,9 +3,9 @@
 
 use super::failure::{StepFailure, Stepped};
 use super::integrator::{Integrator, Override};
-use crate::sim::state::{State, Vector};
-use crate::sim::system::{StateOf, System};
-use crate::sim::vec_system::{Scratch, VecSystem};
+use crate::state::{State, Vector};
+use crate::system::{StateOf, System};
+use crate::vec_system::{Scratch, VecSystem};
 
 /// A system of any type. A custom method steps systems with their coordinates in a `Vec`.
 pub type AnySystem<'a, V = Vec<f64>> = &'a (dyn System<Vector = V> + 'a);
@@ -26,7 +26,7 @@ impl<V, I: for<'a> Integrator<AnySystem<'a, V>> + Clone + 'static> AnyIntegrator
 /// [`Method::custom`](super::Method::custom) on a custom method's card:
 ///
 /// ```
-/// use regatta::prelude::*;
+/// use regatta_sim::prelude::*;
 ///
 /// /// Explicit Euler's step.
 /// #[derive(Clone)]

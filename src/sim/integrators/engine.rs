@@ -15,8 +15,8 @@ use super::card::{Carded, NO_FREE_SPIN, Needs};
 use super::failure::{StepFailure, Stepped};
 use super::gyro::{moments_of, turn_state};
 use super::integrator::{Integrator, Override};
-use crate::sim::state::{State, Vector};
-use crate::sim::system::{EngineSettings, StateOf, System};
+use crate::state::{State, Vector};
+use crate::system::{EngineSettings, StateOf, System};
 
 /// A tick of an engine, with its length, substeps, settings and force.
 #[derive(Debug)]

@@ -3,7 +3,7 @@
 use std::fmt;
 use std::sync::Arc;
 
-use crate::sim::number::round;
+use crate::number::round;
 
 /// The result of a step, which is nothing, or the reason why it failed.
 pub type Stepped = Result<(), StepFailure>;
@@ -37,7 +37,7 @@ pub enum StepFailure {
         work_per_s: f64,
         /// The maximum work of a reference solution, [`MAX_REFERENCE_WORK`].
         ///
-        /// [`MAX_REFERENCE_WORK`]: crate::sim::MAX_REFERENCE_WORK
+        /// [`MAX_REFERENCE_WORK`]: crate::MAX_REFERENCE_WORK
         most: f64,
     },
     /// A body met its walls too often in a step.
@@ -78,7 +78,7 @@ pub enum StepFailure {
 impl StepFailure {
     /// Checks the times and the number of parts of a step.
     #[inline]
-    pub(in crate::sim) fn check_step(t: f64, h: f64, substeps: u32) -> Stepped {
+    pub(crate) fn check_step(t: f64, h: f64, substeps: u32) -> Stepped {
         if (t + h).is_finite() && substeps > 0 {
             return Ok(());
         }

@@ -5,8 +5,8 @@ use std::marker::PhantomData;
 use super::card::{Carded, Needs};
 use super::failure::{StepFailure, Stepped};
 use super::integrator::Integrator;
-use crate::sim::state::{State, Vector};
-use crate::sim::system::{Pursuit, StateOf, System};
+use crate::state::{State, Vector};
+use crate::system::{Pursuit, StateOf, System};
 
 /// The rule of a follower.
 pub trait FollowerRule: Carded + Clone + Send + Sync + 'static {

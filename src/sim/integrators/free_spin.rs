@@ -7,7 +7,7 @@
 
 use glam::{DMat3, DQuat, DVec3};
 
-use crate::sim::spin::{free_acceleration, turn_by};
+use crate::spin::{free_acceleration, turn_by};
 
 /// One step of the angular velocity of a body without torque. `'` marks values at the end of the step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -11,9 +11,9 @@ use glam::{DQuat, DVec3};
 use super::card::Carded;
 use super::failure::{StepFailure, Stepped};
 use super::integrator::Integrator;
-use crate::sim::spin::{Spin, seen_from, turn_by, vector_of};
-use crate::sim::state::{State, Vector};
-use crate::sim::system::{Query, StateOf, System};
+use crate::spin::{Spin, seen_from, turn_by, vector_of};
+use crate::state::{State, Vector};
+use crate::system::{Query, StateOf, System};
 
 /// The angular velocity (rad/s) at the end of a step and the turn of the body during it, or the reason why there is no
 /// such step.

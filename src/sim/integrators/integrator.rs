@@ -3,8 +3,8 @@
 use std::fmt;
 
 use super::failure::Stepped;
-use crate::sim::state::{State, Vector};
-use crate::sim::system::{Coupling, StateOf, System};
+use crate::state::{State, Vector};
+use crate::system::{Coupling, StateOf, System};
 
 /// A method that advances a system by steps.
 ///
@@ -13,7 +13,7 @@ use crate::sim::system::{Coupling, StateOf, System};
 /// goes back to an earlier tick keeps a clone beside the state:
 ///
 /// ```
-/// # use regatta::sim::{State, bodies::Spring, integrators::{integrator, method}};
+/// # use regatta_sim::{State, bodies::Spring, integrators::{integrator, method}};
 /// # let spring = Spring { mass: 1.0, stiffness: 40.0, damping: 0.0, x0: 1.0, v0: 0.0, kick: 1.0 };
 /// let mut state = State { q: 1.0, v: 0.0 };
 /// let mut bdf2 = integrator(method("bdf2").unwrap(), &state.q);
@@ -137,7 +137,7 @@ impl Tolerance {
 
     /// Returns the largest component of `h error`, relative to the tolerance at `y`.
     #[inline]
-    pub(in crate::sim::integrators) fn relative_error<V: Vector>(
+    pub(in crate::integrators) fn relative_error<V: Vector>(
         &self,
         h: f64,
         error: &State<V>,

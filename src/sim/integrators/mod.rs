@@ -112,9 +112,7 @@ pub use gyro::{Gyro, GyroRule, Turned};
 pub use integrator::{CloneIntegrator, Integrator, Override, Tolerance};
 pub use joint_mode::{JointMode, JointQuantity, Setting, in_code};
 pub use shared::embedded_pair::{EmbeddedPair, Pair};
-#[cfg(feature = "lab")]
-pub(crate) use spelling::plain;
-pub use spelling::{UnknownMethod, method_or_nearest};
+pub use spelling::{UnknownMethod, method_or_nearest, plain};
 
 /// A system of erased type with coordinates of type `V`, so that methods are compiled only once for all such systems.
 /// It counts evaluations.
@@ -217,10 +215,10 @@ macro_rules! methods {
             }
             #[cfg(feature = "lab")]
             match method.own {
-                Some(crate::sim::law::OwnLines::Method(lines)) => {
+                Some(crate::law::OwnLines::Method(lines)) => {
                     return construct.of(|like| step_method::StepMethod::of(lines, like, coupling));
                 }
-                Some(crate::sim::law::OwnLines::Rule(rule)) => {
+                Some(crate::law::OwnLines::Rule(rule)) => {
                     return construct.of(|_| step_rule::StepRule::of(rule));
                 }
                 None => {}
@@ -241,7 +239,7 @@ macro_rules! methods {
         /// Calls `construct` with the integrator type of `method` for blocks of bodies. Returns `None` if the method
         /// does not step each number by itself.
         #[cfg(feature = "batch")]
-        pub(in crate::sim) fn construct_in_blocks<S: System, C: Construct<S>>(
+        pub(crate) fn construct_in_blocks<S: System, C: Construct<S>>(
             method: &Method,
             construct: C,
         ) -> Option<C::Output> {
@@ -251,7 +249,7 @@ macro_rules! methods {
 
         /// Whether `method` steps each number by itself, and can thus step copies in blocks.
         #[cfg(feature = "batch")]
-        pub(crate) fn steps_in_blocks(method: &Method) -> bool {
+        pub fn steps_in_blocks(method: &Method) -> bool {
             [$($(id_in_blocks!($file, $blocks),)?)+].contains(&method.id)
         }
     };
@@ -332,7 +330,7 @@ methods! {
 ///
 /// # Panics
 /// The same as for [`construct`].
-pub(in crate::sim) fn any_integrator<V: Vector>(
+pub(crate) fn any_integrator<V: Vector>(
     method: &Method,
     class: BodyClass,
     coupling: Coupling,
@@ -380,14 +378,14 @@ pub fn method(id: &str) -> Option<&'static Method> {
 /// [generation](System::generation) of the forces is not that of the last step. A caller whose system has no generation
 /// must call [`Integrator::reset`] when the forces jump.
 ///
-/// An [engine](Family::Engine)'s method steps a system that answers no [engine query](crate::sim::Query::Engine) as a
+/// An [engine](Family::Engine)'s method steps a system that answers no [engine query](crate::Query::Engine) as a
 /// force that the engine holds for a tick, without the engine's joint.
 ///
 /// A system that borrows, such as the level of a game, has no boxed integrator. It is stepped by the method's own type,
 /// which is two to six times as fast for a cheap step, and resets nothing by itself:
 ///
 /// ```
-/// # use regatta::sim::{State, System, integrators::{Integrator, Rk4}};
+/// # use regatta_sim::{State, System, integrators::{Integrator, Rk4}};
 /// struct Leaf<'a> {
 ///     wind_m_per_s: &'a [f64],
 /// }
@@ -410,7 +408,7 @@ pub fn method(id: &str) -> Option<&'static Method> {
 /// ```
 ///
 /// ```
-/// # use regatta::sim::{State, bodies::Spring, integrators::{integrator, method}};
+/// # use regatta_sim::{State, bodies::Spring, integrators::{integrator, method}};
 /// let spring = Spring { mass: 1.0, stiffness: 40.0, damping: 0.0, x0: 1.0, v0: 0.0, kick: 1.0 };
 /// let mut state = State { q: 1.0, v: 0.0 };
 /// let mut rk4 = integrator(method("rk4").unwrap(), &state.q);

@@ -2,7 +2,7 @@
 
 use super::joint_mode::JointQuantity::{Damping, Stiffness};
 use super::prelude::*;
-use crate::sim::system::EngineSettings;
+use crate::system::EngineSettings;
 
 const MODES: [JointMode; 3] = [
     si_mode("joint", "<joint type=\"slide\" stiffness=\"{stiffness}\" damping=\"{damping}\"/>"),

@@ -15,8 +15,6 @@ pub(super) use super::free_spin::{FreeSpin, SpinMap};
 pub(super) use super::gyro::{GyroRule, Split, Turned, carried, fixed_point, turned};
 pub(super) use super::integrator::{Integrator, Override, Tolerance};
 pub(super) use super::joint_mode::{JointMode, mode, si_mode};
-pub(super) use crate::sim::spin::{
-    axes_by_moment, free_acceleration, free_jerk, seen_from, turn_by,
-};
-pub(super) use crate::sim::state::{Elementwise, State, Vector};
-pub(super) use crate::sim::system::{Coupling, StateOf, System};
+pub(super) use crate::spin::{axes_by_moment, free_acceleration, free_jerk, seen_from, turn_by};
+pub(super) use crate::state::{Elementwise, State, Vector};
+pub(super) use crate::system::{Coupling, StateOf, System};

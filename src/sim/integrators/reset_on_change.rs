@@ -2,8 +2,8 @@
 
 use super::failure::{StepFailure, Stepped};
 use super::integrator::{Integrator, Override};
-use crate::sim::state::{State, Vector};
-use crate::sim::system::{Coupling, StateOf, System};
+use crate::state::{State, Vector};
+use crate::system::{Coupling, StateOf, System};
 
 /// A method that [resets](Integrator::reset) if its state is not the one that it returned, or if the forces have
 /// jumped.

@@ -5,7 +5,7 @@ use std::fmt;
 use super::{METHODS, Method};
 
 /// Returns a word without the differences that do not matter in a name: case, blanks around it, and the kind of hyphen.
-pub(crate) fn plain(word: &str) -> String {
+pub fn plain(word: &str) -> String {
     word.trim().to_lowercase().replace(['_', ' '], "-")
 }
 

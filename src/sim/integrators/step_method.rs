@@ -6,8 +6,8 @@ use super::prelude::*;
 use super::shared::newton::Newton;
 use super::shared::slopes::Slopes;
 use super::shared::stages::Stages;
-use crate::sim::law::{General, Input, Request, StepRegisters, StepText};
-use crate::sim::system::{EngineSettings, Pursuit};
+use crate::law::{General, Input, Request, StepRegisters, StepText};
+use crate::system::{EngineSettings, Pursuit};
 
 /// A method made of lines that call the acceleration, or take the target or the settings of their body.
 #[derive(Clone)]

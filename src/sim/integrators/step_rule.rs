@@ -2,8 +2,8 @@
 
 use super::failure::StepFailure;
 use super::prelude::*;
-use crate::sim::law::{LinearRule, StepRegisters};
-use crate::sim::system::Pursuit;
+use crate::law::{LinearRule, StepRegisters};
+use crate::system::Pursuit;
 
 /// A rule that steps each coordinate of a body towards the body's target, or towards 0 if it has none.
 #[derive(Clone)]

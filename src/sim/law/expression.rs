@@ -7,7 +7,7 @@ use super::fault::{ExpressionFault, Parsed, Remedy, fault, quoted};
 use super::function::{FUNCTIONS, Function, STEP_FUNCTIONS};
 use super::op::{INFIXES, Infix, Level, Op, REMAINDER, is_word};
 use super::token::{Token, tokens};
-use crate::sim::curve::Curve;
+use crate::curve::Curve;
 
 mod call;
 
@@ -69,7 +69,7 @@ impl Node {
 
 /// An expression whose value is a number.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Expression {
+pub struct Expression {
     pub(super) nodes: Vec<Node>,
     /// The byte range of each node in the text.
     pub(super) spans: Vec<Range<usize>>,

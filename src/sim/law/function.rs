@@ -312,9 +312,9 @@ impl Function {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::sim::law::expression::{Scope, parse};
-    use crate::sim::law::fault::Part;
-    use crate::sim::law::tape::Tape;
+    use crate::law::expression::{Scope, parse};
+    use crate::law::fault::Part;
+    use crate::law::tape::Tape;
 
     struct Plane;
 

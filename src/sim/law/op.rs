@@ -2,7 +2,7 @@
 
 use super::function::Smooth;
 use super::switch::{ModeRule, Switch, SwitchValue};
-use crate::sim::curve::Curve;
+use crate::curve::Curve;
 
 /// One operation. A truth value is 0 for false and 1 for true.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -71,12 +71,18 @@ impl Op {
 
 /// How tightly an operator binds, from loose to tight.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub(crate) enum Level {
+pub enum Level {
+    /// Either of two conditions.
     Or,
+    /// Both conditions.
     And,
+    /// Two numbers compared.
     Comparison,
+    /// Addition and subtraction.
     Sum,
+    /// Multiplication and division.
     Product,
+    /// Powers.
     Power,
 }
 

@@ -57,7 +57,7 @@ impl Registers {
 }
 
 /// The registers of `W` motions by a law of one coordinate.
-pub(in crate::sim) struct LawLanes<const W: usize> {
+pub(crate) struct LawLanes<const W: usize> {
     slots: Vec<[f64; W]>,
     /// For each slot, whether it has the same value in all motions.
     alike: Vec<bool>,
@@ -65,7 +65,7 @@ pub(in crate::sim) struct LawLanes<const W: usize> {
 
 impl<const W: usize> LawLanes<W> {
     /// Returns registers for motions with the `values` of [`Registers`], and this throttle and rudder.
-    pub(in crate::sim) fn new(equations: &Equations, values: &[f64], steering: [f64; 2]) -> Self {
+    pub(crate) fn new(equations: &Equations, values: &[f64], steering: [f64; 2]) -> Self {
         let mut slots = vec![[0.0; W]; equations.motion.slots];
         [slots[THROTTLE], slots[RUDDER]] = steering.map(|part| [part; W]);
         let from = equations.text.slots_of_constants().start;
@@ -79,7 +79,7 @@ impl<const W: usize> LawLanes<W> {
 impl Equations {
     /// Overwrites `a` with the accelerations of several motions. Never allocates.
     #[inline(always)]
-    pub(in crate::sim) fn accelerate_lanes<const W: usize>(
+    pub(crate) fn accelerate_lanes<const W: usize>(
         &self,
         LawLanes { slots, alike }: &mut LawLanes<W>,
         t: f64,

@@ -10,23 +10,23 @@ use std::ops::Range;
 use super::expression::Expression;
 use super::fault::{ExpressionFault, fault};
 use super::form::is_linear;
-pub(crate) use super::tape::SwitchKind;
+pub use super::tape::SwitchKind;
 use super::tape::Tape;
 pub use frames::{FrameInput, FrameOutput, LoopText};
-pub(crate) use linear::{AT_TARGET, Frame, NO_RETURN, remembers_place};
+pub use linear::{AT_TARGET, Frame, NO_RETURN, remembers_place};
 pub use linear::{LinearRule, RuleBody};
-pub(crate) use loop_tree::LoopName;
+pub use loop_tree::LoopName;
 pub use map::StepMap;
 use method::{Array, Function, Machine, Taken};
 pub use method::{General, Input, Request, StepCall};
 use paths::of_one_component;
 use plain::plain;
-pub(crate) use powers::Powers;
+pub use powers::Powers;
 use reader::Reader;
 pub use statements::Declares;
 use statements::statements;
 pub use tree::MethodInput;
-pub(crate) use tree::{Operation, StepBody, bracketed};
+pub use tree::{Operation, StepBody, bracketed};
 
 mod frames;
 mod linear;
@@ -89,26 +89,40 @@ const OTHER_NAMES: [(usize, &[&str]); 3] = [
 
 /// A line, with its names as indices among the inputs.
 #[derive(Debug)]
-pub(crate) enum Line {
+pub enum Line {
+    /// `name = value`, or with an operator in `joins` as in `name += value`.
     Assign {
+        /// The name.
         name: usize,
+        /// The operator before the sign, or nothing.
         joins: &'static str,
+        /// The expression at the right.
         value: Expression,
+        /// How the line declares the name, if it does.
         declares: Option<Declares>,
     },
+    /// Begins lines for the case that the expression is not 0.
     If(Expression),
+    /// Begins lines for the other case.
     Else,
+    /// Begins lines that are repeated while the expression is not 0.
     While(Expression),
+    /// Ends the lines of a case, a loop or a function.
     End,
+    /// Ends a function with its value.
     Return(Expression),
     /// `array[index] = value`.
     Store {
+        /// The array.
         array: usize,
+        /// The place in the array.
         index: Expression,
+        /// The new number.
         value: Expression,
     },
     /// Ends the step. If it fails, `x` and `v` become NaN.
     Stop {
+        /// Whether it fails.
         fails: bool,
     },
     /// A remark on a line of its own.
@@ -129,7 +143,7 @@ pub struct Carried {
 
 impl Carried {
     /// Returns the index of the number among the names of the lines.
-    pub(crate) fn input(&self) -> usize {
+    pub fn input(&self) -> usize {
         self.input
     }
 }
@@ -209,7 +223,7 @@ impl StepText {
     }
 
     /// Reads the lines of a printer, of which a rule may have loops.
-    pub(crate) fn read_generated(text: &str) -> Result<Self, ExpressionFault> {
+    pub fn read_generated(text: &str) -> Result<Self, ExpressionFault> {
         Self::read_lines(text, Some(0..0))
     }
 
@@ -222,7 +236,7 @@ impl StepText {
 
     /// Reads the text of a rule, which calls no acceleration. If the text does call the acceleration, the fault has
     /// this remedy.
-    pub(crate) fn read_rule(text: &str, remedy: &str) -> Result<Self, ExpressionFault> {
+    pub fn read_rule(text: &str, remedy: &str) -> Result<Self, ExpressionFault> {
         let read = Self::read(text)?;
         match read.method_at.clone() {
             Some(at) => fault(at, "a rule is the whole motion, and calls no acceleration", remedy),

@@ -1,7 +1,7 @@
 //! The switches of a tape, which are operations that are smooth only piece by piece, and the mode of each.
 
 use super::jet::{Jet, chain, constant};
-use crate::sim::curve::{Curve, above, below};
+use crate::curve::{Curve, above, below};
 
 /// An operation on `a` and `b` that is smooth only piece by piece.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]

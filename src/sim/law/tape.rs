@@ -12,13 +12,13 @@ use super::fault::Part;
 use super::jet::{self, Jet};
 use super::op::Op;
 use super::switch::{ModeRule, Switch};
-use crate::sim::curve::Curve;
+use crate::curve::Curve;
 
 /// The maximum number of operations of a tape, with which a step takes ten microseconds.
 pub const MAX_OPERATIONS: usize = 4096;
 
-/// The maximum number of switches of a tape. It is small, so that a [`Piece`](crate::sim::bodies::Piece) is small.
-pub(super) use crate::sim::body::MAX_SWITCHES;
+/// The maximum number of switches of a tape. It is small, so that a [`Piece`](crate::bodies::Piece) is small.
+pub(super) use crate::body::MAX_SWITCHES;
 
 /// One operation, which reads up to three slots and writes one.
 #[derive(Clone, Copy, Debug)]
@@ -34,7 +34,7 @@ struct Instruction {
 
 /// The kind of a switch.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum SwitchKind {
+pub enum SwitchKind {
     /// A comparison, whose mode 1 is true.
     Condition,
     /// The choice of one of two numbers.
@@ -54,7 +54,7 @@ pub(super) struct Origin {
 
 /// The operations of one or more expressions over the same inputs. The first slots hold the inputs.
 #[derive(Clone, Debug)]
-pub(in crate::sim) struct Tape {
+pub(crate) struct Tape {
     numbers: Vec<(u16, f64)>,
     prelude: Vec<Instruction>,
     main: Vec<Instruction>,
@@ -261,7 +261,7 @@ impl Tape {
     }
 
     /// Returns the mode of the switch with this index beyond a boundary of its mode.
-    pub(in crate::sim) fn neighbour(&self, index: usize, mode: i64, side: usize) -> i64 {
+    pub(crate) fn neighbour(&self, index: usize, mode: i64, side: usize) -> i64 {
         self.switches[index].0.neighbour(mode, side)
     }
 

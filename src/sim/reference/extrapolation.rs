@@ -3,9 +3,9 @@
 //! equations by extrapolation methods* (1966); Hairer, Nørsett & Wanner, *Solving Ordinary Differential Equations I*,
 //! II.9.
 
-use crate::sim::body::{Body, Distances, NO_BOUNDARIES, Piece};
-use crate::sim::state::{State, Vector, largest};
-use crate::sim::system::System;
+use crate::body::{Body, Distances, NO_BOUNDARIES, Piece};
+use crate::state::{State, Vector, largest};
+use crate::system::System;
 
 /// The number of columns of the extrapolation table; the last column has order 16. More columns gain nothing in `f64`.
 const COLUMNS: usize = 8;

@@ -1,9 +1,9 @@
 //! A numerical solution in double-double precision, and the control of its step size.
 
 use super::extrapolation::Extrapolation;
-use crate::sim::body::{Body, Distances, MAX_SWITCHES, NO_BOUNDARIES, Piece};
-use crate::sim::double_double::{DoubleDouble, TWO_PI};
-use crate::sim::state::{State, Vector};
+use crate::body::{Body, Distances, MAX_SWITCHES, NO_BOUNDARIES, Piece};
+use crate::double_double::{DoubleDouble, TWO_PI};
+use crate::state::{State, Vector};
 
 /// If a step is accepted with at most this number of columns, it was too short, and the next step is twice as long.
 const FEW_COLUMNS: usize = 6;

@@ -3,8 +3,8 @@
 
 use super::Tick;
 use super::spectrum::{Eigenvalue, eigenvalues, has_memory, linear_maps};
-use crate::sim::Stepper;
-use crate::sim::integrators::StepFailure;
+use crate::Stepper;
+use crate::integrators::StepFailure;
 
 /// The effect of a method on small deviations of a body from its present state.
 #[derive(Clone, Copy, Debug, PartialEq)]

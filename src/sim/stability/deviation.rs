@@ -3,11 +3,11 @@
 
 use nalgebra::DMatrix;
 
-use crate::sim::bodies::{Custom, Extras};
-use crate::sim::integrators::Method;
-use crate::sim::numerics::quotient;
-use crate::sim::state::largest;
-use crate::sim::{Solver, State, Stepper, System, stepper};
+use crate::bodies::{Custom, Extras};
+use crate::integrators::Method;
+use crate::state::largest;
+use crate::state::quotient;
+use crate::{Solver, State, Stepper, System, stepper};
 
 /// Returns the acceleration of a body in a state, coordinates first.
 pub(super) fn acceleration_at(body: &dyn Stepper, t: f64, state: &[f64]) -> Vec<f64> {
@@ -109,8 +109,8 @@ pub(super) fn deviation_along_forces(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::sim::bodies::kind;
-    use crate::sim::integrators::{GENERAL_METHODS, method};
+    use crate::bodies::kind;
+    use crate::integrators::{GENERAL_METHODS, method};
 
     /// Returns the largest difference between two states, relative to 1 and their size.
     fn apart(found: &[f64], wanted: &[f64]) -> f64 {

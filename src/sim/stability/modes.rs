@@ -9,9 +9,9 @@ use nalgebra::{DMatrix, SymmetricEigen};
 use super::Tick;
 use super::comparison::{LinearMotion, Mode, Stability};
 use super::spectrum::{self, NEUTRAL_WITH_MEMORY};
-use crate::sim::bodies::Input;
-use crate::sim::integrators::StepFailure;
-use crate::sim::{Solver, Stepper};
+use crate::bodies::Input;
+use crate::integrators::StepFailure;
+use crate::{Solver, Stepper};
 
 /// A normal mode of a linear body, `x″ = -ω² x - c x′`.
 #[derive(Clone, Debug, PartialEq)]
@@ -215,10 +215,10 @@ fn bump(part: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::sim::Solver;
-    use crate::sim::bodies::kind;
-    use crate::sim::integrators::{GENERAL_METHODS, method};
-    use crate::sim::stability::normal_modes;
+    use crate::Solver;
+    use crate::bodies::kind;
+    use crate::integrators::{GENERAL_METHODS, method};
+    use crate::stability::normal_modes;
 
     fn body(id: &str, values: &[f64]) -> Box<dyn Stepper> {
         (kind(id).unwrap().build)(values, Solver::Truth)

@@ -2,10 +2,11 @@
 //! the iteration uses differences between steps of the stepper itself.
 
 use super::{Tick, deviation};
-use crate::sim::integrators::{Method, StepFailure};
-use crate::sim::numerics::{XorShift, quotient};
-use crate::sim::state::largest;
-use crate::sim::{Solver, Stepper};
+use crate::integrators::{Method, StepFailure};
+use crate::numerics::XorShift;
+use crate::state::largest;
+use crate::state::quotient;
+use crate::{Solver, Stepper};
 
 /// The maximum number of iterations, enough for a radius accurate to a thousandth.
 const MAX_ITERATIONS: usize = 2048;
@@ -196,9 +197,9 @@ fn start_vector(components: usize) -> Vec<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::sim::bodies::kind;
-    use crate::sim::integrators::method;
-    use crate::sim::stability::SmallMotion;
+    use crate::bodies::kind;
+    use crate::integrators::method;
+    use crate::stability::SmallMotion;
 
     fn spectral_radius(body: &dyn Stepper, id: &str, tick: Tick) -> Option<f64> {
         let solver = Solver::Method(method(id).unwrap());

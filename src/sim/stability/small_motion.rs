@@ -10,8 +10,8 @@ use super::comparison::{LinearMotion, Mode, Stability};
 use super::deviation::{self, acceleration_at, force_slopes};
 use super::modes::{NormalMode, modes_of, unforced};
 use super::spectrum::{self, Eigenvalue};
-use crate::sim::Stepper;
-use crate::sim::integrators::{Method, StepFailure};
+use crate::Stepper;
+use crate::integrators::{Method, StepFailure};
 
 /// The equation of small deviations of a body from rest, `x″ = A x + B x′`, without throttle. On a linear body, the
 /// equation is valid for deviations of any size.
@@ -118,7 +118,7 @@ impl SmallMotion {
     }
 }
 
-/// Returns the normal modes of `body`. Returns `None` if `body` is not [linear](crate::sim::PlacedBody::is_linear), if
+/// Returns the normal modes of `body`. Returns `None` if `body` is not [linear](crate::PlacedBody::is_linear), if
 /// damping couples the modes, or if a mode grows.
 pub fn normal_modes(body: &dyn Stepper) -> Option<Vec<NormalMode>> {
     if body.is_linear() { SmallMotion::of(body).ok()?.normal_modes() } else { None }
@@ -277,9 +277,9 @@ const SMOOTH: f64 = 1e-3;
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::sim::Solver;
-    use crate::sim::bodies::kind;
-    use crate::sim::integrators::{GENERAL_METHODS, method};
+    use crate::Solver;
+    use crate::bodies::kind;
+    use crate::integrators::{GENERAL_METHODS, method};
 
     fn body(id: &str, values: &[f64]) -> Box<dyn Stepper> {
         (kind(id).unwrap().build)(values, Solver::Truth)

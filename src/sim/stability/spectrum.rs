@@ -4,8 +4,8 @@ use nalgebra::{ColPivQR, DMatrix, Schur};
 
 use super::Tick;
 use super::deviation::acceleration_at;
-use crate::sim::Stepper;
-use crate::sim::integrators::StepFailure;
+use crate::Stepper;
+use crate::integrators::StepFailure;
 
 /// An eigenvalue. Both eigenvalues of a conjugate pair are represented by the one in the upper half plane.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,6 +1,6 @@
 use super::*;
+use crate::compose;
 use crate::scene::Scene;
-use crate::stage::compose;
 use crate::studio::{HeldBody, RunCommand, StageCommand, ViewCommand};
 
 /// The words beside the body's name. Asserts that they end before the chip.

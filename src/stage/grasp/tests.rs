@@ -1,8 +1,8 @@
 use super::*;
 use crate::scene::Scene;
 use crate::sim::bodies::BODIES;
-use crate::stage::{Picture, compose};
 use crate::studio::{RunCommand, ViewCommand};
+use crate::{Picture, compose};
 
 const SIZE: [f32; 2] = [800.0, 500.0];
 

@@ -2,7 +2,7 @@ use super::*;
 use crate::measure::FutureMoment;
 use crate::scene::{Action, LaneId, LaneSpec, Scene};
 use crate::sim::integrators::{GENERAL_METHODS, METHODS, Method};
-use crate::studio::{RunCommand, StageCommand, Step, ViewCommand};
+use crate::{RunCommand, StageCommand, Step, ViewCommand};
 
 /// Returns a studio whose scene has run for some ticks under a method.
 fn studio(scene: &str, method: &str, ticks: u64) -> Studio {

@@ -2,13 +2,13 @@
 //! program. A hint appears only if it is true in the present mode, under the present method, at the present rate.
 
 use super::HintContext;
+use crate::Step;
+use crate::command::{Command, RunCommand, StageCommand, TICK_LADDER, ViewCommand};
+use crate::display::Arrangement;
+use crate::instrument::Instrument;
+use crate::key::commands_named;
 use crate::measure::Outcome;
 use crate::run::race::Mode;
-use crate::studio::Step;
-use crate::studio::command::{Command, RunCommand, StageCommand, TICK_LADDER, ViewCommand};
-use crate::studio::display::Arrangement;
-use crate::studio::instrument::Instrument;
-use crate::studio::key::commands_named;
 
 /// A hint that follows the scene's own hint.
 struct FollowUpHint {
@@ -112,7 +112,7 @@ static FOLLOW_UP_HINTS: [FollowUpHint; 8] = [
 
 /// The hints that a person has followed.
 #[derive(Clone, Debug, Default)]
-pub(in crate::studio) struct Hints {
+pub(crate) struct Hints {
     /// Whether the person has followed the hint of the open scene.
     scene: bool,
     leads: [bool; FOLLOW_UP_HINTS.len()],
@@ -120,12 +120,12 @@ pub(in crate::studio) struct Hints {
 
 impl Hints {
     /// Returns the hints for a scene that has just been opened.
-    pub(in crate::studio) fn of_next_scene(&self) -> Self {
+    pub(crate) fn of_next_scene(&self) -> Self {
         Self { scene: false, leads: self.leads }
     }
 
     /// Marks the hints that this command follows. `hint` is the scene's own hint.
-    pub(in crate::studio) fn mark_followed(&mut self, command: &Command, hint: Option<&str>) {
+    pub(crate) fn mark_followed(&mut self, command: &Command, hint: Option<&str>) {
         self.scene |=
             hint.and_then(first_key_commands).is_some_and(|asked| asked.contains(&command));
         for (done, lead) in self.leads.iter_mut().zip(&FOLLOW_UP_HINTS) {
@@ -135,11 +135,7 @@ impl Hints {
 
     /// Returns the present hint. It is the scene's own hint, or else the first true hint that the person has not
     /// followed. `outcome` is the verdict on the selected lane.
-    pub(in crate::studio) fn text(
-        &self,
-        now: &HintContext<'_>,
-        outcome: Option<Outcome>,
-    ) -> Option<String> {
+    pub(crate) fn text(&self, now: &HintContext<'_>, outcome: Option<Outcome>) -> Option<String> {
         let hint = now.scene.hint.as_deref().filter(|hint| is_so(hint, now));
         if let Some(hint) = hint.filter(|_| !self.scene) {
             return Some(hint.to_owned());
@@ -228,7 +224,7 @@ mod tests {
 
     #[test]
     fn no_hint_asks_to_restart_a_fresh_run() {
-        use crate::studio::Studio;
+        use crate::Studio;
         let text = "title = 'mine'\ntick_hz = 60\nseconds = 9\nmethods = ['rk4', 'implicit-euler']\n\
              [[spring]]\nmass_kg = 1\nstiffness_n_per_m = 9\nx0_m = 1\n";
         let mut studio = Studio::new(Scene::parse("mine.toml", text).unwrap());
@@ -247,7 +243,7 @@ mod tests {
 
     #[test]
     fn a_lost_run_is_told_to_tick_faster_and_not_slower() {
-        use crate::studio::Studio;
+        use crate::Studio;
         let mut studio = Studio::new(Scene::built_in("stiff").unwrap());
         studio.apply(StageCommand::TickHz(30.into()));
         (0..60).for_each(|_| studio.tick());
@@ -261,7 +257,7 @@ mod tests {
 
     #[test]
     fn a_method_that_is_selected_already_is_not_asked_for() {
-        use crate::studio::Studio;
+        use crate::Studio;
         for name in ["spring", "damped", "pendulum", "harbour"] {
             let mut scene = Scene::built_in(name).unwrap();
             let asks_for_it =
@@ -274,7 +270,7 @@ mod tests {
 
     #[test]
     fn following_hints_in_any_order_leads_to_the_next() {
-        use crate::studio::Studio;
+        use crate::Studio;
         let mut studio = Studio::new(Scene::built_in("spring").unwrap());
         let text = |studio: &Studio| studio.hint().unwrap_or_default();
         let own = text(&studio);

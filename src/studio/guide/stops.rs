@@ -1,10 +1,10 @@
 //! The stops of the guide, in the order of the chapter.
 
 use super::{Goal, Stop};
+use crate::instrument::Instrument;
+use crate::key::Key;
 use crate::run::past::Quantity;
 use crate::run::race::{Interpolation, Mode};
-use crate::studio::instrument::Instrument;
-use crate::studio::key::Key;
 
 /// Values that the stops about a ship share.
 const SHIP: Stop = Stop {

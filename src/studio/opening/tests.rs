@@ -4,8 +4,8 @@ use crate::run::diff::Difference;
 use crate::run::race::Mode;
 use crate::scene::{Action, SCENES};
 use crate::sim::TickRate;
-use crate::studio::{Command, DriverRequest, RunCommand, StageCommand, Step, View, ViewCommand};
 use crate::tools::source_code::Language;
+use crate::{Command, DriverRequest, RunCommand, StageCommand, Step, View, ViewCommand};
 
 fn text(name: &str) -> &'static str {
     SCENES.iter().find(|scene| scene.name == name).unwrap().text
@@ -51,7 +51,7 @@ fn a_changed_file_with_the_same_lanes_and_bodies_reruns_to_the_same_tick() {
     old.apply(StageCommand::Pick(2));
     old.apply(ViewCommand::ZoomPan {
         body: 0,
-        zoom_pan: crate::studio::ZoomPan::default().zoomed(2.0, [0.0; 2]),
+        zoom_pan: crate::ZoomPan::default().zoomed(2.0, [0.0; 2]),
     });
     (0..50).for_each(|_| old.tick());
     old.apply(RunCommand::Act(Action::Kick(1.0)));
@@ -247,63 +247,6 @@ fn a_comparison_ending_in_the_loop_lab_marks_the_run_without_moving_it() {
 }
 
 #[test]
-fn a_differing_recording_runs_along_as_a_ghost_at_every_tick() {
-    use crate::run::diff::{Tolerance, diff};
-    use crate::run::trace::Made;
-    use crate::stage::compose;
-    let mut studio = Studio::new(Scene::built_in("spring").unwrap());
-    (0..90).for_each(|_| studio.tick());
-    let text = studio.deck.recording().unwrap() + "\n[[command]]\nat_s = 1.0\nkick = 1.0\n";
-    let recording = Scene::parse("clip.toml", &text).unwrap();
-    let run = studio.run().recording();
-    let [mut a, mut b] = [recording.clone(), run].map(|scene| Made::of_scene(scene, 90));
-    let found = diff::<_, _, crate::run::diff::NotComparable>(
-        &mut a,
-        &mut b,
-        Tolerance::default(),
-        &crate::run::diff::Chosen::default(),
-    );
-    show_comparison(&mut studio, "clip.toml", &found.unwrap(), recording.clone());
-    assert_eq!((studio.race().tick(), studio.running()), (61, false));
-    let lines = studio.deck.compared().unwrap().lines();
-    assert_eq!(lines[0], "differs from 1.017 s on: position of spring, exact solution");
-    assert!(lines[1].contains(" m apart, ") && lines[1].ends_with(" %"), "{lines:?}");
-    assert!(lines.iter().all(|line| line.chars().count() < 60), "{lines:?}");
-    assert_eq!(studio.viewer.notice, None, "the stage shows it, and the footer does not repeat it");
-    // Runs the recording in a separate session.
-    let alone = |tick: u64| {
-        let mut race = crate::run::Session::racing(recording.clone().into());
-        race.run(tick);
-        race.race().entrants()[0].lane.bodies()[0].stepper.q()[0]
-    };
-    let holds = |studio: &mut Studio, tick: u64| {
-        assert_eq!(studio.race().tick(), tick);
-        let spec = studio.selected().spec;
-        let compared = studio.deck.compared().expect("it stays");
-        let (_, q) = compared.body(studio.scene(), &spec, 0).expect("a spring too");
-        assert_eq!(q[0].to_bits(), alone(tick).to_bits(), "at tick {tick}");
-        let said: Vec<_> =
-            compose(studio, [780.0, 440.0]).labels.into_iter().map(|label| label.text).collect();
-        for words in ["clip.toml", &lines[0], &lines[1]] {
-            assert!(said.iter().any(|said| said == words), "{words}: {said:?}");
-        }
-    };
-    holds(&mut studio, 61);
-    (0..40).for_each(|_| studio.tick());
-    holds(&mut studio, 101);
-    studio.apply(RunCommand::Seek(20));
-    holds(&mut studio, 20);
-    studio.apply(StageCommand::Second(Step::Next));
-    holds(&mut studio, 80);
-    // The recording has no body to show in a scene with other bodies.
-    let spec = studio.selected().spec;
-    let other = Scene::built_in("ship").unwrap();
-    assert!(studio.deck.compared().unwrap().body(&other, &spec, 0).is_none());
-    studio.apply(StageCommand::Restart);
-    assert!(studio.deck.compared().is_none());
-}
-
-#[test]
 fn a_recording_at_another_tick_rate_is_compared_at_the_same_moment() {
     let mut recorded = Studio::new(Scene::built_in("spring").unwrap());
     recorded.apply(StageCommand::Pick(3));
@@ -321,7 +264,7 @@ fn a_recording_at_another_tick_rate_is_compared_at_the_same_moment() {
         let (spec, compared) = (studio.selected().spec, studio.deck.compared().unwrap());
         let (_, there) = compared.body(studio.scene(), &spec, 0).unwrap();
         let body = &studio.selected().lane.bodies()[0];
-        let (here, _) = crate::studio::shown_state(&studio.deck, &studio.viewer, body);
+        let (here, _) = crate::shown_state(&studio.deck, &studio.viewer, body);
         (there[0] - here[0]).abs()
     };
     for tick in [1, 7, 60, 61, 150] {
@@ -348,7 +291,7 @@ fn my_spring_runs_at_the_tick_rate_of_its_dialog_and_opens_the_advice() {
     studio.apply(ViewCommand::AskForSpring);
     let asked = |studio: &Studio| described_spring(&studio.deck, &studio.viewer).1;
     assert_eq!(asked(&studio), studio.clock().tick_hz(), "the present one at first");
-    let rate = crate::studio::SpringField::tick_rate(asked(&studio));
+    let rate = crate::SpringField::tick_rate(asked(&studio));
     assert!(rate.is_whole && rate.value == f64::from(asked(&studio)));
     for wrong in [0.0, 0.005, -60.0, 1e6] {
         assert!((rate.set)(wrong).unwrap_err().contains("tick rate would be"), "{wrong}");

@@ -108,12 +108,12 @@ fn after_tick(of: &Candidate, moments: DVec3, spin: DVec3, tick_s: f64) -> Optio
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::identify::Log;
     use crate::table::TableOptions;
-    use crate::tools::identify::Log;
 
     /// Identifies a log of the tests as the command does.
     fn identified(name: &str, moments: DVec3) -> Identification {
-        let path = format!("{}/tests/data/engines/{name}.csv", env!("CARGO_MANIFEST_DIR"));
+        let path = format!("{}/../../tests/data/engines/{name}.csv", env!("CARGO_MANIFEST_DIR"));
         let text = std::fs::read_to_string(&path).unwrap();
         let of = |x: &str| {
             let [x, v] = [x, "wy"].map(|name| Some(name.to_owned()));

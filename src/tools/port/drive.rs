@@ -2,8 +2,8 @@
 
 use super::seen::NO_GROWTH;
 use super::{MAX_SUBSTEPS, Setup};
+use crate::identify::Effective;
 use crate::sim::numerics::bisect;
-use crate::tools::identify::Effective;
 
 /// A range of stable gains.
 #[derive(Clone, Copy, Debug, PartialEq)]

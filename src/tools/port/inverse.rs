@@ -1,7 +1,7 @@
 //! Finds the stiffness and damping under which a map shows a wanted spring.
 
+use crate::identify::Effective;
 use crate::sim::numerics::bisect;
-use crate::tools::identify::Effective;
 
 /// The visible motion of a joint with this stiffness in 1/s² and damping in 1/s.
 pub(super) type Sees<'a> = &'a dyn Fn([f64; 2]) -> Option<Effective>;

@@ -2,8 +2,8 @@
 
 use nalgebra::{Matrix2, RowVector2, Vector2};
 
+use crate::identify::{Candidate, Effective, LoggedBody, SLOW, SpringForm, run};
 use crate::sim::integrators::{JointMode, Method};
-use crate::tools::identify::{Candidate, Effective, LoggedBody, SLOW, SpringForm, run};
 
 /// An engine's settings for a spring.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -106,7 +106,7 @@ fn columns(first: &[[f64; 2]], second: &[[f64; 2]]) -> Option<Vec<Map>> {
 }
 
 /// Largest spectral radius of a step that does not count as growth.
-pub(in crate::tools) const NO_GROWTH: f64 = 1.0 + 1e-9;
+pub(crate) const NO_GROWTH: f64 = 1.0 + 1e-9;
 
 /// Whether no motion of a map with this trace and determinant grows.
 pub(super) fn is_stable(trace: f64, determinant: f64) -> bool {
@@ -114,7 +114,7 @@ pub(super) fn is_stable(trace: f64, determinant: f64) -> bool {
 }
 
 /// Returns the largest modulus of an eigenvalue of a map with this trace and determinant.
-pub(in crate::tools) fn spectral_radius(trace: f64, determinant: f64) -> f64 {
+pub(crate) fn spectral_radius(trace: f64, determinant: f64) -> f64 {
     let half = trace / 2.0;
     match half * half - determinant {
         square if square < 0.0 => libm::sqrt(determinant),
@@ -123,11 +123,7 @@ pub(in crate::tools) fn spectral_radius(trace: f64, determinant: f64) -> f64 {
 }
 
 /// Returns the damped spring whose map over `tick_s` has this trace and determinant.
-pub(in crate::tools) fn spring_of_map(
-    trace: f64,
-    determinant: f64,
-    tick_s: f64,
-) -> Option<Effective> {
+pub(crate) fn spring_of_map(trace: f64, determinant: f64, tick_s: f64) -> Option<Effective> {
     let half = trace / 2.0;
     let square = half * half - determinant;
     if determinant <= 0.0 || square >= 0.0 && half <= 0.0 {

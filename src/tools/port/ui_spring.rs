@@ -9,12 +9,12 @@ use nalgebra::Matrix2;
 use super::follow::map_of_frame;
 use super::seen::{is_stable, spring_of_map};
 use super::{PortOutcome, REACHED, Wish};
+use crate::identify::Effective;
 use crate::sim::bodies::Spring;
 use crate::sim::integrators::{in_code, method};
 use crate::sim::number::significant;
 use crate::sim::numerics::bisect;
 use crate::sim::{Body, State};
-use crate::tools::identify::Effective;
 
 mod cards;
 mod ends;

@@ -4,7 +4,7 @@ use nalgebra::{Matrix2, Vector2};
 
 use super::{Piece, Rule};
 use crate::sim::law::{AT_TARGET, Frame, NO_RETURN, Powers, SwitchKind};
-use crate::tools::source_code::{Language, RULE_STEP, rule_code, rule_lines, rule_names};
+use crate::source_code::{Language, RULE_STEP, rule_code, rule_lines, rule_names};
 
 /// If the logarithms of the eigenvalues are this far apart, the code has two exponentials. If they are closer, the
 /// difference of the exponentials would be rounding.

@@ -50,7 +50,7 @@ pub(super) fn print(
 ///
 /// # Errors
 /// The reason why they cannot be printed, as a clause.
-pub(in crate::tools) fn rule_lines(text: &StepText) -> Result<Vec<String>, &'static str> {
+pub(crate) fn rule_lines(text: &StepText) -> Result<Vec<String>, &'static str> {
     if let Some(reason) = text.unwritable() {
         return Err(reason);
     }
@@ -61,13 +61,13 @@ pub(in crate::tools) fn rule_lines(text: &StepText) -> Result<Vec<String>, &'sta
 }
 
 /// Returns the name of each carried number of a rule in [its lines](rule_lines).
-pub(in crate::tools) fn rule_names(text: &StepText) -> Vec<String> {
+pub(crate) fn rule_names(text: &StepText) -> Vec<String> {
     let file = File::of_rule(text);
     text.carried().iter().map(|carried| file.step().name(carried.input())).collect()
 }
 
 /// The name of the length of a step in [the lines of a rule](rule_lines).
-pub(in crate::tools) const RULE_STEP: &str = "step_s";
+pub(crate) const RULE_STEP: &str = "step_s";
 
 /// A text with the names that its printed functions share.
 struct File<'t> {

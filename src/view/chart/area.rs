@@ -5,27 +5,27 @@ use egui::{Pos2, Rect, pos2};
 use super::axis::{AxisMark, AxisScale};
 
 /// Lowest and highest value along each axis of a plane.
-pub(in crate::view) type Bounds = [[f64; 2]; 2];
+pub(crate) type Bounds = [[f64; 2]; 2];
 
 /// Distance outside the plot at which a point may still be drawn, in widths or heights of the plot.
 const FAR_OUTSIDE: f64 = 10.0;
 
 /// A rectangle of the screen that shows a rectangle of a plane.
 #[derive(Clone, Copy, Debug)]
-pub(in crate::view) struct PlotArea {
-    pub(in crate::view) rect: Rect,
-    pub(in crate::view) bounds: Bounds,
+pub(crate) struct PlotArea {
+    pub(crate) rect: Rect,
+    pub(crate) bounds: Bounds,
 }
 
 impl PlotArea {
     /// Returns the screen position of a point of the plane. A point far outside moves nearer, so that the painter's f32
     /// can represent it. It stays far enough out for a line to leave the plot at its own slope.
-    pub(in crate::view) fn at(&self, [x, y]: [f64; 2]) -> Pos2 {
+    pub(crate) fn at(&self, [x, y]: [f64; 2]) -> Pos2 {
         pos2(self.rect.left() + self.part(0, x) * self.rect.width(), self.height(y))
     }
 
     /// Returns the screen y of a value on the vertical axis.
-    pub(in crate::view) fn height(&self, y: f64) -> f32 {
+    pub(crate) fn height(&self, y: f64) -> f32 {
         self.rect.bottom() - self.part(1, y) * self.rect.height()
     }
 
@@ -35,7 +35,7 @@ impl PlotArea {
     }
 
     /// Returns the screen lengths, to the right and up, of a difference between two points of the plane.
-    pub(in crate::view) fn lengths(&self, difference: [f64; 2]) -> [f64; 2] {
+    pub(crate) fn lengths(&self, difference: [f64; 2]) -> [f64; 2] {
         let size = [self.rect.width(), self.rect.height()].map(f64::from);
         std::array::from_fn(|axis| {
             let [low, high] = self.bounds[axis];
@@ -44,7 +44,7 @@ impl PlotArea {
     }
 
     /// Returns the point of the plane at a screen position, after moving that position into the rectangle.
-    pub(in crate::view) fn point(&self, at: Pos2) -> [f64; 2] {
+    pub(crate) fn point(&self, at: Pos2) -> [f64; 2] {
         let at = self.rect.clamp(at);
         let parts = [
             (at.x - self.rect.left()) / self.rect.width(),
@@ -58,12 +58,7 @@ impl PlotArea {
 
     /// Returns the round marks along an axis of this scale. They lie at least `apart` points from each other, unless
     /// fewer than three would then fit.
-    pub(in crate::view) fn marks(
-        &self,
-        axis: usize,
-        scale: AxisScale,
-        apart: f64,
-    ) -> Vec<AxisMark> {
+    pub(crate) fn marks(&self, axis: usize, scale: AxisScale, apart: f64) -> Vec<AxisMark> {
         let room = [self.rect.width(), self.rect.height()][axis];
         scale.marks(self.bounds[axis], room, apart)
     }

@@ -14,7 +14,7 @@ pub enum AxisScale {
 }
 
 /// Place of a mark along its axis, and the mark's number as text.
-pub(in crate::view) type AxisMark = (f64, String);
+pub(crate) type AxisMark = (f64, String);
 
 /// Minimum number of marks on an axis, because two marks do not show whether an axis is linear.
 const MIN_MARKS: usize = 3;
@@ -38,7 +38,7 @@ const NEARER: f64 = 0.6;
 
 impl AxisScale {
     /// Returns the place of a value along the axis.
-    pub(in crate::view) fn place(self, value: f64) -> f64 {
+    pub(crate) fn place(self, value: f64) -> f64 {
         match self {
             Self::Linear => value,
             Self::Log => libm::log10(value),
@@ -47,7 +47,7 @@ impl AxisScale {
     }
 
     /// Returns the value at a place of the axis.
-    pub(in crate::view) fn value(self, place: f64) -> f64 {
+    pub(crate) fn value(self, place: f64) -> f64 {
         match self {
             Self::Linear => place,
             Self::Log => libm::pow(10.0, place),
@@ -59,7 +59,7 @@ impl AxisScale {
 
     /// Returns the marks between two places that lie `room` screen points apart. As many marks fit as have `apart`
     /// points between them, but at least three.
-    pub(in crate::view) fn marks(self, range: [f64; 2], room: f32, apart: f64) -> Vec<AxisMark> {
+    pub(crate) fn marks(self, range: [f64; 2], room: f32, apart: f64) -> Vec<AxisMark> {
         let apart = apart * (range[1] - range[0]) / f64::from(room.max(1.0));
         match self {
             Self::Linear => linear(range, apart),

@@ -7,7 +7,7 @@ use std::ops::Range;
 use egui::epaint::Mesh;
 use egui::{Color32, Pos2, Rect, pos2};
 
-use crate::view::lines::{Joint, visible_runs};
+use crate::lines::{Joint, visible_runs};
 
 /// Opacity of a band between its edges.
 const FILL: f32 = 0.35;

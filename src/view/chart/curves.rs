@@ -10,48 +10,48 @@ use egui::{Color32, Painter, Pos2, Rect, Shape, Vec2, vec2};
 
 use super::PlotArea;
 use super::bands::{self, Band};
-use crate::view::lines::{Joint, visible_runs};
-use crate::view::strokes::StrokeMesh;
+use crate::lines::{Joint, visible_runs};
+use crate::strokes::StrokeMesh;
 
 /// Line and dots of a curve.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(in crate::view) struct LineStyle {
-    pub(in crate::view) colour: Color32,
+pub(crate) struct LineStyle {
+    pub(crate) colour: Color32,
     /// Width of the line, in points.
-    pub(in crate::view) width: f32,
+    pub(crate) width: f32,
     /// Length of a dash and of the gap after it, in points. A line with a gap of 0 is solid.
-    pub(in crate::view) dash: [f32; 2],
-    pub(in crate::view) dots: Dots,
+    pub(crate) dash: [f32; 2],
+    pub(crate) dots: Dots,
 }
 
 impl LineStyle {
     /// Creates a line without gaps or dots.
-    pub(in crate::view) fn solid(colour: Color32, width: f32) -> Self {
+    pub(crate) fn solid(colour: Color32, width: f32) -> Self {
         Self { colour, width, dash: [1.0, 0.0], dots: Dots::None }
     }
 }
 
 /// A curve in a plane.
 #[derive(Clone)]
-pub(in crate::view) struct Curve {
-    pub(in crate::view) style: LineStyle,
-    pub(in crate::view) points: Vec<[f64; 2]>,
+pub(crate) struct Curve {
+    pub(crate) style: LineStyle,
+    pub(crate) points: Vec<[f64; 2]>,
     /// Lowest and highest value on the way from the previous point to each point. Empty if only the points are known.
-    pub(in crate::view) swept: Vec<[f64; 2]>,
+    pub(crate) swept: Vec<[f64; 2]>,
 }
 
 /// A curve on the screen.
 #[derive(Clone, Debug)]
-pub(in crate::view) struct ScreenCurve {
-    pub(in crate::view) style: LineStyle,
-    pub(in crate::view) points: Vec<Pos2>,
+pub(crate) struct ScreenCurve {
+    pub(crate) style: LineStyle,
+    pub(crate) points: Vec<Pos2>,
     /// Least and greatest y on the way from the previous point to each point. Empty if only the points are known.
-    pub(in crate::view) swept: Vec<[f32; 2]>,
+    pub(crate) swept: Vec<[f32; 2]>,
 }
 
 impl Curve {
     /// Creates a curve of which only the points are known.
-    pub(in crate::view) fn new(style: LineStyle, points: Vec<[f64; 2]>) -> Self {
+    pub(crate) fn new(style: LineStyle, points: Vec<[f64; 2]>) -> Self {
         Self { style, points, swept: Vec::new() }
     }
 
@@ -67,14 +67,14 @@ impl Curve {
 
 impl ScreenCurve {
     /// Creates a curve of which only the points are known.
-    pub(in crate::view) fn new(style: LineStyle, points: Vec<Pos2>) -> Self {
+    pub(crate) fn new(style: LineStyle, points: Vec<Pos2>) -> Self {
         Self { style, points, swept: Vec::new() }
     }
 }
 
 /// The points of a curve that have a dot.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(in crate::view) enum Dots {
+pub(crate) enum Dots {
     None,
     /// Every point has a dot of this radius, in points.
     Each(f32),
@@ -139,7 +139,7 @@ pub(super) fn choose_drawing(
 }
 
 /// Draws a curve within the painter's clip, as [`choose_drawing`] chooses. A line reaches the painter as a
-/// [`StrokeMesh`] for [`MeshRenderer`](crate::view::meshes::MeshRenderer). Returns `false` if the curve consists only
+/// [`StrokeMesh`] for [`MeshRenderer`](crate::meshes::MeshRenderer). Returns `false` if the curve consists only
 /// of dots.
 pub(super) fn paint(painter: &Painter, curve: &ScreenCurve) -> bool {
     let colour = curve.style.colour;

@@ -9,7 +9,7 @@ use super::{
     Arrow, AxisScale, Curve, Dots, Drawing, LineStyle, PlotArea, Primitive, legend, paint, plot,
 };
 use crate::look::palette::{Rgba, Theme};
-use crate::view::theme::{PanelPalette, colour, palette};
+use crate::theme::{PanelPalette, colour, palette};
 
 /// A picture of one or more charts.
 #[derive(Clone, Debug, PartialEq)]
@@ -124,7 +124,7 @@ const CURVE: f32 = 1.6;
 const INDENT: f32 = 58.0;
 
 /// Shows the figure in all the room of `ui`.
-pub(in crate::view) fn show(ui: &mut Ui, figure: &Figure) {
+pub(crate) fn show(ui: &mut Ui, figure: &Figure) {
     let frame = Frame::new().fill(palette(ui).background).inner_margin(Margin {
         left: 12,
         right: 26,
@@ -195,7 +195,7 @@ fn show_chart(ui: &mut Ui, chart: &Chart, place: Rect) {
 }
 
 /// Lays out a chart without its title and legend.
-pub(in crate::view) fn layout(chart: &Chart, room: Rect, palette: &PanelPalette) -> Vec<Primitive> {
+pub(crate) fn layout(chart: &Chart, room: Rect, palette: &PanelPalette) -> Vec<Primitive> {
     let bounds = [0, 1].map(|axis| {
         let Axis { view, scale, .. } = &chart.axes[axis];
         view.map(|value| scale.place(value))

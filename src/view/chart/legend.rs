@@ -5,26 +5,26 @@ use std::sync::Arc;
 use egui::{Align2, Color32, FontId, Galley, Pos2, Response, Sense, Stroke, Ui, pos2, vec2};
 
 use super::{Primitive, Text, paint, text_width};
-use crate::view::theme::{PanelPalette, palette, strong_font};
+use crate::theme::{PanelPalette, palette, strong_font};
 
 /// Length of a piece of line, gap between a piece and the name, and gap between two entries, in points.
 const SWATCH: f32 = 26.0;
 const BEFORE_NAME: f32 = 6.0;
-pub(in crate::view) const BETWEEN: f32 = 13.0;
+pub(crate) const BETWEEN: f32 = 13.0;
 /// The height of a row of entries, in points.
-pub(in crate::view) const ROW: f32 = 15.0;
+pub(crate) const ROW: f32 = 15.0;
 /// The size of a name, in points.
 const SIZE: f32 = 12.0;
 
 /// An entry of a legend: a curve's name and the style of its line.
 #[derive(Clone, Debug)]
-pub(in crate::view) struct Entry {
-    pub(in crate::view) name: String,
-    pub(in crate::view) colour: Color32,
+pub(crate) struct Entry {
+    pub(crate) name: String,
+    pub(crate) colour: Color32,
     /// Length of a dash and of the gap after it, in points. A line with a gap of 0 is solid.
-    pub(in crate::view) dash: [f32; 2],
+    pub(crate) dash: [f32; 2],
     /// Whether the name is emphasized.
-    pub(in crate::view) is_front: bool,
+    pub(crate) is_front: bool,
 }
 
 impl Entry {
@@ -34,7 +34,7 @@ impl Entry {
     }
 
     /// Returns the width of the entry, in points.
-    pub(in crate::view) fn width(&self, ui: &Ui) -> f32 {
+    pub(crate) fn width(&self, ui: &Ui) -> f32 {
         SWATCH + BEFORE_NAME + self.words(ui).size().x
     }
 
@@ -59,7 +59,7 @@ impl Entry {
 }
 
 /// Shows a legend in as many rows as its entries need.
-pub(in crate::view) fn show(ui: &mut Ui, entries: &[Entry]) -> Vec<Response> {
+pub(crate) fn show(ui: &mut Ui, entries: &[Entry]) -> Vec<Response> {
     ui.scope(|ui| {
         ui.spacing_mut().interact_size.y = ROW;
         ui.horizontal_wrapped(|ui| show_here(ui, entries, 0.0)).inner
@@ -68,13 +68,13 @@ pub(in crate::view) fn show(ui: &mut Ui, entries: &[Entry]) -> Vec<Response> {
 }
 
 /// Shows a legend in the current row. Each entry is at least `width` points wide.
-pub(in crate::view) fn show_here(ui: &mut Ui, entries: &[Entry], width: f32) -> Vec<Response> {
+pub(crate) fn show_here(ui: &mut Ui, entries: &[Entry], width: f32) -> Vec<Response> {
     ui.spacing_mut().item_spacing.x = BETWEEN;
     entries.iter().map(|entry| entry.show(ui, width)).collect()
 }
 
 /// Returns a piece of a curve's line as the plots draw it. It begins at `from` and goes to the right.
-pub(in crate::view) fn swatch(
+pub(crate) fn swatch(
     from: Pos2,
     length: f32,
     [drawn, gap]: [f32; 2],
@@ -92,11 +92,7 @@ pub(in crate::view) fn swatch(
 }
 
 /// Lays out a legend in one row. Its lines are at the height of `from`.
-pub(in crate::view) fn layout(
-    entries: &[Entry],
-    from: Pos2,
-    palette: &PanelPalette,
-) -> Vec<Primitive> {
+pub(crate) fn layout(entries: &[Entry], from: Pos2, palette: &PanelPalette) -> Vec<Primitive> {
     let mut x = from.x;
     let entry = |entry: &Entry| {
         let laid_out = entry.layout(pos2(x, from.y), palette);

@@ -6,14 +6,14 @@ use egui::{Align2, Color32, FontId, Painter, Pos2, Rect, Shape, Stroke, StrokeKi
 
 use super::SCATTERED;
 use super::curves::{self, Dots, ScreenCurve, dots};
-use crate::view::theme::strong_font;
+use crate::theme::strong_font;
 
 /// Gap between the words of a text and their tail, in points.
 pub(super) const BEFORE_TAIL: f32 = 14.0;
 
 /// A part of a laid-out chart. Later parts lie over earlier ones.
 #[derive(Clone, Debug)]
-pub(in crate::view) enum Primitive {
+pub(crate) enum Primitive {
     /// A filled rectangle.
     Area(Rect, Color32),
     /// The outer edge of a rectangle.
@@ -34,25 +34,25 @@ pub(in crate::view) enum Primitive {
 
 /// Text in a chart.
 #[derive(Clone, Debug)]
-pub(in crate::view) struct Text {
-    pub(in crate::view) at: Pos2,
+pub(crate) struct Text {
+    pub(crate) at: Pos2,
     /// The part of the text that lies at `at`.
-    pub(in crate::view) anchor: Align2,
-    pub(in crate::view) words: String,
-    pub(in crate::view) size: f32,
-    pub(in crate::view) is_strong: bool,
-    pub(in crate::view) colour: Color32,
+    pub(crate) anchor: Align2,
+    pub(crate) words: String,
+    pub(crate) size: f32,
+    pub(crate) is_strong: bool,
+    pub(crate) colour: Color32,
     /// The x that the text must not exceed.
-    pub(in crate::view) right: f32,
+    pub(crate) right: f32,
     /// Maximum width of a line, in points.
-    pub(in crate::view) wrap: f32,
+    pub(crate) wrap: f32,
     /// Further words after the text, in their own colour.
-    pub(in crate::view) tail: Option<(String, Color32)>,
+    pub(crate) tail: Option<(String, Color32)>,
 }
 
 impl Text {
     /// Creates a text in one line of any length.
-    pub(in crate::view) fn new(
+    pub(crate) fn new(
         at: Pos2,
         anchor: Align2,
         words: impl Into<String>,
@@ -65,7 +65,7 @@ impl Text {
     }
 
     /// Returns the same text in strong type.
-    pub(in crate::view) fn strong(self) -> Self {
+    pub(crate) fn strong(self) -> Self {
         Self { is_strong: true, ..self }
     }
 
@@ -94,7 +94,7 @@ impl From<Text> for Primitive {
 }
 
 /// Paints a chart within the painter's clip.
-pub(in crate::view) fn paint(painter: &Painter, primitives: &[Primitive]) {
+pub(crate) fn paint(painter: &Painter, primitives: &[Primitive]) {
     for primitive in primitives {
         match primitive {
             Primitive::Area(rect, fill) => drop(painter.rect_filled(*rect, 0.0, *fill)),

@@ -5,7 +5,7 @@ use egui::{Align, Color32, Pos2, Rect, Stroke};
 use super::curves::{CurveDrawing, Dots, ScreenCurve, choose_drawing, dots};
 use super::primitive::{BEFORE_TAIL, Text};
 use super::{Primitive, SCATTERED, text_width};
-use crate::view::lines::Joint;
+use crate::lines::Joint;
 
 /// Height of a line of text, relative to its font size.
 const LINE: f32 = 1.25;
@@ -14,7 +14,7 @@ const LINE: f32 = 1.25;
 const BASELINE: [f32; 3] = [0.95, 0.35, -0.25];
 
 /// Writes a chart as an SVG file of this size in pixels of its own.
-pub(in crate::view) fn file([width, height]: [f32; 2], primitives: &[Primitive]) -> String {
+pub(crate) fn file([width, height]: [f32; 2], primitives: &[Primitive]) -> String {
     let mut svg = Svg { text: String::new(), clips: 0 };
     svg.line(&format!(
         r#"<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width} {height}" font-family="Inter, sans-serif">"#
@@ -198,7 +198,7 @@ mod tests {
     use egui::{Align2, pos2, vec2};
 
     use super::*;
-    use crate::view::chart::LineStyle;
+    use crate::chart::LineStyle;
 
     #[test]
     fn a_crowded_curve_becomes_a_band_and_long_text_is_wrapped() {

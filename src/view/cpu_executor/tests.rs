@@ -2,11 +2,11 @@ use egui::epaint::ImageDelta;
 use egui::{Pos2, TextureOptions, pos2};
 
 use super::*;
+use crate::drawing::{Draw, Mesh, Place};
 use crate::scene::{SCENES, Scene};
 use crate::studio::{StageCommand, Studio};
-use crate::view::drawing::{Draw, Mesh, Place};
-use crate::view::tests::testing::{Pixels, executor, gpu_or_skip, paint, paint_on};
-use crate::view::{FrameRenderer, GpuExecutor, PixelDifference, PixelLimits};
+use crate::tests::testing::{Pixels, executor, gpu_or_skip, paint, paint_on};
+use crate::{FrameRenderer, GpuExecutor, PixelDifference, PixelLimits};
 
 fn one_place(size_px: [u32; 2]) -> ScreenTransform {
     let [width, height] = size_px.map(|side| side as f32);

@@ -1,11 +1,11 @@
 use super::*;
+use crate::chart::{self, LineStyle, Primitive, ScreenCurve};
+use crate::offscreen_renderer::Offscreen;
 use crate::scene::Scene;
 use crate::stage::{Fill, Picture, Shape};
 use crate::studio::StageCommand;
-use crate::view::chart::{self, LineStyle, Primitive, ScreenCurve};
-use crate::view::offscreen_renderer::Offscreen;
-use crate::view::tests::testing::{EVERYWHERE, Pixels, executor, gpu_or_skip, paint, paint_on};
-use crate::view::{Gpu, GpuExecutor, RendererChoice};
+use crate::tests::testing::{EVERYWHERE, Pixels, executor, gpu_or_skip, paint, paint_on};
+use crate::{Gpu, GpuExecutor, RendererChoice};
 
 /// Longest side of a texture.
 const SIDE_PX: u32 = 4096;

@@ -18,8 +18,8 @@ use crate::measure::{
 use crate::scene::LaneSpec;
 use crate::stage::number::{counted, significant};
 use crate::studio::{Command, RunCommand, Studio, ViewCommand};
+use crate::theme::{PanelPalette, TYPE, palette, strong_font};
 use crate::tools::source_code::{Language, Precision, function_code};
-use crate::view::theme::{PanelPalette, TYPE, palette, strong_font};
 
 /// Notes above the table, with and without room for evaluations in its cells.
 const CELLS: [&str; 2] = [

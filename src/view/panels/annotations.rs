@@ -3,7 +3,7 @@
 use egui::epaint::TextShape;
 use egui::{Color32, Painter, Pos2, Shape, Stroke, Vec2};
 
-use crate::view::theme::strong_font;
+use crate::theme::strong_font;
 
 /// Width of the halo around a label, in points.
 const HALO: f32 = 1.5;

@@ -10,7 +10,7 @@ use crate::scene::LaneSpec;
 use crate::scene::TickRate;
 use crate::stage::number::significant;
 use crate::studio::{Command, StageCommand, Studio};
-use crate::view::theme::{PanelPalette, palette, strong_font};
+use crate::theme::{PanelPalette, palette, strong_font};
 
 /// Height of a row and font size of the heads, in points.
 const ROW: f32 = 22.0;
@@ -185,7 +185,7 @@ mod tests {
     use crate::scene::Scene;
     use crate::studio::guide::STOPS;
     use crate::studio::{Instrument, ViewCommand};
-    use crate::view::tests::testing::TestWindow;
+    use crate::tests::testing::TestWindow;
 
     #[test]
     fn solo_compares_the_costs_of_offered_methods_after_the_prediction() {

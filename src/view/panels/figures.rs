@@ -4,7 +4,7 @@ use egui::{Button, Rect, Ui};
 
 use super::{keycap, parts};
 use crate::studio::{BOOK_FIGURES, BookFigure, Command, ViewCommand};
-use crate::view::theme::palette;
+use crate::theme::palette;
 
 /// Width of the list, and height of a row, in points.
 const WIDTH: f32 = 470.0;
@@ -39,7 +39,7 @@ mod tests {
     use super::*;
     use crate::scene::Scene;
     use crate::studio::{Studio, ViewCommand};
-    use crate::view::tests::testing::TestWindow;
+    use crate::tests::testing::TestWindow;
 
     #[test]
     fn the_whole_list_is_on_every_window() {

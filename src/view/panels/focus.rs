@@ -3,10 +3,10 @@
 use egui::style::ScrollAnimation;
 use egui::{Id, Response, Stroke, StrokeKind, Ui};
 
-use crate::view::theme::palette;
+use crate::theme::palette;
 
 /// The width of the ring, in points.
-pub(in crate::view) const RING: f32 = 1.6;
+pub(crate) const RING: f32 = 1.6;
 
 /// Draws a ring around the focused widget, on top of the widget.
 pub(super) fn show(ui: &Ui) {
@@ -47,7 +47,7 @@ mod tests {
 
     use crate::scene::Scene;
     use crate::studio::{StageCommand, Studio};
-    use crate::view::tests::testing::TestWindow;
+    use crate::tests::testing::TestWindow;
 
     fn tab() -> Event {
         let (key, modifiers) = (Key::Tab, Modifiers::NONE);

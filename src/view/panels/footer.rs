@@ -8,7 +8,7 @@ use crate::loops::loop_lab::LoopCommand;
 use crate::run::race::Mode;
 use crate::stage::number::round;
 use crate::studio::{Command, RunCommand, StageCommand, Studio, ViewCommand};
-use crate::view::theme::{TYPE, palette};
+use crate::theme::{TYPE, palette};
 
 pub(super) const HEIGHT: f32 = 32.0;
 
@@ -60,7 +60,7 @@ fn status_parts(studio: &Studio) -> (Vec<String>, bool) {
 }
 
 /// Returns the verdict on the active method, and the text of the status line, as sentences for a screen reader.
-pub(in crate::view) fn spoken(studio: &Studio) -> String {
+pub(crate) fn spoken(studio: &Studio) -> String {
     let verdict = lanes::verdict_on(studio, studio.active());
     let is_known = studio.loop_lab().is_none() && verdict.sign.is_some();
     let name = studio.lane_name(studio.active());
@@ -164,7 +164,7 @@ mod tests {
 
     #[test]
     fn a_click_on_a_key_of_a_hint_does_what_the_key_does() {
-        use crate::view::tests::testing::TestWindow;
+        use crate::tests::testing::TestWindow;
         let mut studio = Studio::new(Scene::built_in("spring").unwrap());
         let mut window = TestWindow::new([390.0, 700.0]);
         let clicked = |studio: &Studio, window: &mut TestWindow, key: &str| {

@@ -5,7 +5,7 @@ use egui::{Align, Button, Layout, RichText, ScrollArea, Ui, vec2};
 use super::{breakpoints, focus, keycap};
 use crate::studio::guide::{STOPS, Tour};
 use crate::studio::{Command, Step, ViewCommand};
-use crate::view::theme::{palette, strong_font};
+use crate::theme::{palette, strong_font};
 
 /// The guide's usual height, its minimum height, and the height left for the stage if possible, in points.
 const HEIGHT: f32 = 172.0;

@@ -6,7 +6,7 @@ use egui::{Align2, FontId, Order, RichText, ScrollArea, Ui, Vec2, Window, pos2, 
 use super::parts::short;
 use super::{breakpoints, keycap};
 use crate::studio::{Command, GESTURES, KEYS, ViewCommand};
-use crate::view::theme::{TYPE, palette};
+use crate::theme::{TYPE, palette};
 
 /// Width of a column, and width of the keys in a column, in points.
 const COLUMN: f32 = 560.0;
@@ -97,7 +97,7 @@ mod tests {
     use super::*;
     use crate::scene::Scene;
     use crate::studio::Studio;
-    use crate::view::tests::testing::TestWindow;
+    use crate::tests::testing::TestWindow;
 
     #[test]
     fn a_click_into_the_help_of_a_window_of_any_size_does_not_panic() {

@@ -6,13 +6,13 @@ use egui::{
 };
 
 use self::rows::{Row, SliderRange, Spacing, Values, rows};
-pub(in crate::view) use self::sweep::is_sweep_active;
+pub(crate) use self::sweep::is_sweep_active;
 use super::focus;
 use super::number_field::NumberField;
 use crate::scene::{Action, check_entered, edited_values};
 use crate::stage::TakesEffect;
 use crate::studio::{Command, RunCommand, Studio, ViewCommand};
-use crate::view::theme::palette;
+use crate::theme::palette;
 
 mod engine;
 mod rows;
@@ -252,7 +252,7 @@ mod tests {
     use super::*;
     use crate::scene::{LaneId, SCENES, Scene};
     use crate::studio::StageCommand;
-    use crate::view::tests::testing::TestWindow;
+    use crate::tests::testing::TestWindow;
 
     /// Returns every visible text in a frame that is high enough for all of the inspector.
     fn texts(studio: &Studio) -> Vec<String> {
@@ -357,10 +357,8 @@ mod tests {
             all.iter().find(|(rect, text)| text == "▶" && is_beside(rect)).expect("a button").0;
         let at = play.center();
         for is_down in [true, false] {
-            let events = vec![
-                egui::Event::PointerMoved(at),
-                crate::view::tests::testing::button(at, is_down),
-            ];
+            let events =
+                vec![egui::Event::PointerMoved(at), crate::tests::testing::button(at, is_down)];
             assert_eq!(window.panels(&studio, events).0, []);
         }
         let before = studio.race().values(0).to_vec();

@@ -9,6 +9,7 @@ use super::parts::{is_picture, numbered};
 use super::series_styles::{SeriesStyle, SeriesStyles};
 use super::tracks::Detail;
 use super::{advice, breakpoints, cost, loops, one_step, stability_map};
+use crate::chart::legend::{self, Entry};
 use crate::loops::loop_lab::FRAME_METRICS;
 use crate::run::METRICS;
 use crate::run::past::Quantity;
@@ -16,10 +17,9 @@ use crate::studio::{
     Command, INSTRUMENTS, Instrument, InstrumentCard, InstrumentGroup, StageCommand, Studio,
     ViewCommand,
 };
-use crate::view::chart::legend::{self, Entry};
-use crate::view::theme::{TYPE, palette, strong_font};
+use crate::theme::{TYPE, palette, strong_font};
 
-pub(in crate::view) use export::{csv, svg};
+pub(crate) use export::{csv, svg};
 use plot_set::{BeforeLine, PlotSet};
 
 mod by_loop;

@@ -4,7 +4,7 @@ use egui::{Align2, Color32, FontId, Painter, Rect, Response, Sense, Stroke, Ui, 
 
 use super::parts::short;
 use crate::studio::{Command, commands_named};
-use crate::view::theme::{TYPE, palette, strong_font};
+use crate::theme::{TYPE, palette, strong_font};
 
 /// Height of a key's box, minimum padding around its letter, and gap between a box and a word, in points.
 pub(super) const HEIGHT: f32 = 22.0;
@@ -158,7 +158,7 @@ pub(super) fn paragraph(ui: &mut Ui, sentence: &str, colour: Color32, commands: 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::view::tests::testing::TestWindow;
+    use crate::tests::testing::TestWindow;
 
     #[test]
     fn a_screen_reader_hears_the_keys_of_a_paragraph() {

@@ -11,8 +11,8 @@ use crate::run::race::{LaneBody, Mode};
 use crate::studio::{
     Command, DriverRequest, StageCommand, Studio, ViewCommand, joint_code, shown_truth,
 };
+use crate::theme::{PanelPalette, TYPE, palette, strong_font};
 use crate::tools::source_code::Language;
-use crate::view::theme::{PanelPalette, TYPE, palette, strong_font};
 use row::Row;
 
 mod columns;

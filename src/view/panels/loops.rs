@@ -6,13 +6,13 @@ use std::iter;
 use egui::{Color32, Rect, RichText, Sense, Ui, Vec2, vec2};
 
 use super::breakpoints;
+use crate::chart::figure::{self, Chart, FigureCurve};
+use crate::chart::legend::{self, Entry};
+use crate::chart::{self, Primitive};
 use crate::loops::loop_lab::{LoopCommand, LoopLab, LoopLane};
 use crate::run::csv_row;
 use crate::studio::{Command, Studio, mark_of};
-use crate::view::chart::figure::{self, Chart, FigureCurve};
-use crate::view::chart::legend::{self, Entry};
-use crate::view::chart::{self, Primitive};
-use crate::view::theme::{PanelPalette, colour, palette, strong_font};
+use crate::theme::{PanelPalette, colour, palette, strong_font};
 
 pub(super) mod controls;
 mod counts;
@@ -223,7 +223,7 @@ mod tests {
     use super::*;
     use crate::scene::Scene;
     use crate::studio::{open_loop_lab_on, run_loops};
-    use crate::view::tests::testing::TestWindow;
+    use crate::tests::testing::TestWindow;
 
     #[test]
     fn game_time_and_the_menu_of_engines_are_whole_on_every_window() {

@@ -6,7 +6,7 @@ use super::verdict::VerdictText;
 use super::{breakpoints, keycap, lanes};
 use crate::run::MenuIndex;
 use crate::studio::{Command, DIGITS, StageCommand, Studio, mark_of};
-use crate::view::theme::{TYPE, palette, strong_font};
+use crate::theme::{TYPE, palette, strong_font};
 
 /// Height of the first row, and of each further row, in points.
 pub(super) const HEIGHT: f32 = 40.0;
@@ -204,10 +204,10 @@ fn paint(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::panels;
     use crate::scene::Scene;
     use crate::studio::StageCommand;
-    use crate::view::panels;
-    use crate::view::tests::testing::TestWindow;
+    use crate::tests::testing::TestWindow;
 
     /// Returns the words of the row in a window of this width. The two lines of a name are joined with a blank.
     fn words(studio: &Studio, width: f32) -> Vec<String> {
@@ -259,7 +259,7 @@ mod tests {
             drop(frame());
             let texts = frame().texts;
             let shown = names.iter().filter(|name| {
-                let is_it = |text: &&crate::view::tests::testing::ShownText| {
+                let is_it = |text: &&crate::tests::testing::ShownText| {
                     text.shape.galley.text() == **name && text.shape.pos.y > size[1] - 200.0
                 };
                 texts.iter().filter(is_it).all(|text| text.clip.contains(text.shape.pos))

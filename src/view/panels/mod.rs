@@ -374,7 +374,7 @@ mod tests {
     use super::*;
     use crate::scene::Scene;
     use crate::studio::{StageCommand, Studio};
-    use crate::view::tests::testing::{TestWindow, button};
+    use crate::tests::testing::{TestWindow, button};
 
     #[test]
     fn a_panel_boundary_follows_a_drag_and_a_double_click_resets_it() {

@@ -7,7 +7,7 @@ use super::parts::dialog;
 use super::text_field::text_area;
 use crate::run::link::MAX_LETTERS;
 use crate::studio::{Command, ReadLines, Studio, ViewCommand};
-use crate::view::theme::palette;
+use crate::theme::palette;
 
 /// Width of the field, and rows of text in it. Then the most height of the code below it, in points.
 const WIDTH: f32 = 470.0;
@@ -76,7 +76,7 @@ pub(super) fn show(
 mod tests {
     use super::*;
     use crate::scene::Scene;
-    use crate::view::tests::testing::TestWindow;
+    use crate::tests::testing::TestWindow;
 
     #[test]
     fn the_dialog_shows_lines_code_and_faults_whole_on_every_window() {

@@ -7,9 +7,9 @@ use super::parts::dialog;
 use super::text_field::select;
 use crate::scene::TickRate;
 use crate::studio::{Command, MySpring, SpringField, StageCommand, Studio, ViewCommand};
+use crate::theme::{TYPE, palette};
 use crate::tools::port::{UI_SPRINGS, USUAL_FRAME_HZ, UiSpring, UiSpringPort};
 use crate::tools::source_code::Language;
-use crate::view::theme::{TYPE, palette};
 
 const TITLE: &str = "My spring";
 /// Width of a name, width of a number, height of a line, and width of a line, in points.
@@ -173,7 +173,7 @@ mod tests {
 
     use super::*;
     use crate::scene::Scene;
-    use crate::view::tests::testing::{TestWindow, button};
+    use crate::tests::testing::{TestWindow, button};
 
     #[test]
     fn the_spring_swings_beside_its_numbers_or_below_them_where_there_is_room() {

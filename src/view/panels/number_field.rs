@@ -8,8 +8,8 @@ use egui::{
     WidgetInfo,
 };
 
-use crate::view::panels::text_field::{MAX_NUMBER, select, text_field};
-use crate::view::theme::palette;
+use crate::panels::text_field::{MAX_NUMBER, select, text_field};
+use crate::theme::palette;
 
 /// Maximum width of an error message, in points.
 const FAULT: f32 = 260.0;
@@ -256,7 +256,7 @@ mod tests {
     use egui::{Event, vec2};
 
     use super::*;
-    use crate::view::tests::testing::TestWindow;
+    use crate::tests::testing::TestWindow;
 
     #[test]
     fn numbers_are_short_and_can_be_typed_in_again() {

@@ -10,13 +10,13 @@ use egui::{
 use super::annotations::{arrow, label};
 use super::breakpoints;
 use super::parts::formula;
+use crate::chart::{self, AxisScale, Curve, Drawing, LineStyle, PlotArea};
 use crate::measure::{OneStep, Slope};
 use crate::run::Unit;
 use crate::stage::Coordinate;
 use crate::stage::number::{round, significant};
 use crate::studio::{Studio, one_step, orbit};
-use crate::view::chart::{self, AxisScale, Curve, Drawing, LineStyle, PlotArea};
-use crate::view::theme::{TYPE, colour, palette, strong_font};
+use crate::theme::{TYPE, colour, palette, strong_font};
 
 mod loupe;
 
@@ -480,7 +480,7 @@ fn words(step: &OneStep, coordinate: &Coordinate) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::prelude::METHODS;
+    use regatta_sim::integrators::METHODS;
 
     #[test]
     fn each_formula_line_is_beside_its_evaluation() {

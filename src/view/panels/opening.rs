@@ -7,7 +7,7 @@ use super::text_field::{select, text_field};
 use crate::run::link::MAX_LETTERS;
 use crate::scene::ShownError;
 use crate::studio::{Command, DriverRequest, Studio, ViewCommand};
-use crate::view::theme::palette;
+use crate::theme::palette;
 
 /// Width of the field for a path, in points. It shows a usual path without scrolling.
 const WIDTH: f32 = 460.0;
@@ -118,7 +118,7 @@ mod tests {
     use super::*;
     use crate::scene::Scene;
     use crate::studio::{Dialog, refuse_typed_path, show_mistakes};
-    use crate::view::tests::testing::TestWindow;
+    use crate::tests::testing::TestWindow;
 
     /// Returns the size of the only dialog over the studio, in points.
     fn size_of_dialog(studio: &Studio, title: &str) -> egui::Vec2 {

@@ -4,7 +4,7 @@ use egui::{Align2, Area, Button, Id, LayerId, Order, Rect, Stroke, Ui, UiBuilder
 
 use super::{breakpoints, keycap};
 use crate::studio::{Command, Studio, ViewCommand, ZoomPan};
-use crate::view::theme::palette;
+use crate::theme::palette;
 
 /// Distance (points) of the button from the right and bottom edges of the stage: beside the sign of a pause, and above
 /// the scale bar.
@@ -76,7 +76,7 @@ pub(super) fn quit_question(ui: &Ui, studio: &Studio, stage: Rect) {
 mod tests {
     use super::*;
     use crate::scene::Scene;
-    use crate::view::tests::testing::TestWindow;
+    use crate::tests::testing::TestWindow;
 
     #[test]
     fn the_button_to_fit_is_there_only_for_a_chosen_view_and_fits_it() {

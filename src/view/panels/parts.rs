@@ -10,7 +10,7 @@ use egui::{
 
 use crate::measure::{Outcome, Severity};
 use crate::run::MenuIndex;
-use crate::view::theme::{colour, formula_font, palette, quantity_font};
+use crate::theme::{colour, formula_font, palette, quantity_font};
 
 /// Tag of the panel that shows the picture of an instrument.
 pub(super) const PICTURE: &str = "picture of an instrument";
@@ -85,7 +85,7 @@ pub(super) fn dialog(title: &str, over: Rect) -> Window<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::prelude::METHODS;
+    use regatta_sim::integrators::METHODS;
 
     fn quantities(line: &str) -> Vec<String> {
         let job = formula(line, 13.0, Color32::WHITE);

@@ -2,7 +2,7 @@
 //! does not change an axis.
 
 use super::tracks::Track;
-use crate::view::chart::AxisScale;
+use crate::chart::AxisScale;
 
 /// Minimum error that plots show, as a power of ten. Smaller errors are only rounding.
 const FLOOR: f64 = -17.0;

@@ -11,7 +11,7 @@ use super::number_field::NumberField;
 use crate::scene::entered_tick_rate;
 use crate::stage::TickRate;
 use crate::studio::{Command, StageCommand, Step, Studio, ViewCommand};
-use crate::view::theme::{palette, strong_font};
+use crate::theme::{palette, strong_font};
 
 /// Lowest and highest rate of the scale, in Hz.
 const ENDS: [f64; 2] = [5.0, 1000.0];

@@ -5,7 +5,7 @@ use egui::Color32;
 use crate::loops::loop_lab::LoopLab;
 use crate::run::race::Mode;
 use crate::studio::{Studio, digit_of, shown_s};
-use crate::view::theme::{colour, palette_of};
+use crate::theme::{colour, palette_of};
 
 /// Styles of the curves in a plot.
 pub(super) struct SeriesStyles {

@@ -11,6 +11,7 @@ use egui::{
 use super::annotations::{label, mixed, polygon};
 use super::breakpoints;
 use super::parts::{is_picture, numbered};
+use crate::chart::{self, AxisScale, LineStyle, PlotArea, Primitive, ScreenCurve};
 use crate::measure::{Coverage, DampingLine, MapRequest, StabilityMap};
 use crate::run::MenuIndex;
 use crate::scene::TickRate;
@@ -20,8 +21,7 @@ use crate::stage::number::round;
 use crate::studio::{
     Command, RunCommand, StageCommand, Step, Studio, mappable_parameters, mapped_parameter,
 };
-use crate::view::chart::{self, AxisScale, LineStyle, PlotArea, Primitive, ScreenCurve};
-use crate::view::theme::{colour, palette, strong_font};
+use crate::theme::{colour, palette, strong_font};
 use words::{full_name, point_in_words, sentence, short_sentence};
 
 mod words;

@@ -5,10 +5,10 @@ use egui::{Align2, Color32, FontId, Id, Rect, Response, ScrollArea, Sense, Ui, V
 
 use super::parts::short;
 use super::{focus, keycap};
+use crate::chart;
+use crate::chart::legend::swatch;
 use crate::studio::Command;
-use crate::view::chart;
-use crate::view::chart::legend::swatch;
-use crate::view::theme::{PanelPalette, TYPE, palette, strong_font};
+use crate::theme::{PanelPalette, TYPE, palette, strong_font};
 
 /// Width of the bar at the left of the selected row, and width of the margin around a row, in points.
 const BAR: f32 = 4.0;

@@ -12,14 +12,14 @@ use self::marks::{Context, MarkGroup, Sign, grouped};
 
 pub(super) use self::span::Span;
 use super::breakpoints;
+use crate::chart::AxisScale;
 use crate::run::Event;
 use crate::run::race::{Mode, TimeScale};
 use crate::studio::{
     Command, DriverRequest, RunCommand, StageCommand, Step, Studio, ViewCommand, shown_s,
 };
-use crate::view::chart::AxisScale;
-use crate::view::theme::{PanelPalette, palette};
-use crate::view::touch::wheel_or_pinch;
+use crate::theme::{PanelPalette, palette};
+use crate::touch::wheel_or_pinch;
 
 mod marks;
 mod span;

@@ -13,7 +13,7 @@ use crate::studio::{
     Command, RunCommand, SPEED_LADDER, StageCommand, Step, Studio, ViewCommand, shown_s,
     shown_tick, slowed_in_words,
 };
-use crate::view::theme::{TYPE, palette, strong_font};
+use crate::theme::{TYPE, palette, strong_font};
 
 pub(super) const HEIGHT: f32 = 40.0;
 
@@ -268,7 +268,7 @@ fn button(ui: &mut Ui, text: &str, hover: &str, command: Command, commands: &mut
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::view::tests::testing::TestWindow;
+    use crate::tests::testing::TestWindow;
 
     #[test]
     fn the_scene_menu_also_offers_a_comparison() {

@@ -5,10 +5,10 @@ use std::borrow::Cow;
 use std::ops::RangeInclusive;
 
 use super::series_styles::SeriesStyles;
+use crate::chart::{Arrow, Bounds, Curve, Dots, Drawing, LineStyle, Switch};
 use crate::run::past::{History, Quantity, Sample, Summary};
 use crate::run::race::Entrant;
 use crate::studio::Studio;
-use crate::view::chart::{Arrow, Bounds, Curve, Dots, Drawing, LineStyle, Switch};
 
 /// A sample of a lane in a plot.
 #[derive(Clone, Copy, Debug)]

@@ -6,7 +6,7 @@ use egui::{Color32, FontId, Pos2, Rect, Stroke, Ui, pos2, vec2};
 use super::parts::{severity_tone, short};
 use crate::look::palette::STALE;
 use crate::measure::{Severity, Sign};
-use crate::view::theme::{TYPE, palette};
+use crate::theme::{TYPE, palette};
 
 /// Half the size of a sign, and width for the sign, in points.
 const HALF: f32 = 4.5;

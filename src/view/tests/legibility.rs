@@ -6,6 +6,7 @@ use egui::{Pos2, Rect, Ui, Vec2, vec2};
 use rayon::prelude::*;
 
 use super::testing::{ShownText, TestWindow};
+use crate::frame::write;
 use crate::look::palette::Theme;
 use crate::loops::loop_lab::LoopCommand;
 use crate::measure::cloud::{CloudChoice, CloudShape, CloudWorker};
@@ -19,8 +20,7 @@ use crate::studio::{
     SCALE_LADDER, StageCommand, Step, Studio, ViewCommand, complete_clouds, run_loops,
     unanswered_request,
 };
-use crate::view::frame::write;
-use crate::view::{panels, theme};
+use crate::{panels, theme};
 
 /// Window sizes in points: the first is the minimum, and the last has four times the usual pixels.
 const SIZES: [Vec2; 4] =

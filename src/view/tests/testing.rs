@@ -6,18 +6,18 @@ use std::num::NonZero;
 use egui::epaint::TextShape;
 use egui::{Context, Event, Modifiers, PointerButton, Pos2, RawInput, Ui, Vec2};
 
+use crate::backdrop::BackdropFinder;
+use crate::offscreen_renderer::Offscreen;
+use crate::panels::RING;
+use crate::readback::Readback;
 use crate::stage::{Picture, Rect};
+use crate::stage_area::Stage;
+use crate::stage_area::draw_stage;
 use crate::studio::{Command, Studio};
-use crate::view::backdrop::BackdropFinder;
-use crate::view::offscreen_renderer::Offscreen;
-use crate::view::panels::RING;
-use crate::view::readback::Readback;
-use crate::view::stage::Stage;
-use crate::view::stage::draw_stage;
-use crate::view::{CpuExecutor, Drawing, Gpu, GpuExecutor, RendererChoice, panels, theme};
+use crate::{CpuExecutor, Drawing, Gpu, GpuExecutor, RendererChoice, panels, theme};
 
 /// A graphics device. Without one, writes the name of the skipped test and the reason to stderr.
-pub(in crate::view) fn gpu_or_skip(test: &str) -> Option<Gpu> {
+pub(crate) fn gpu_or_skip(test: &str) -> Option<Gpu> {
     pollster::block_on(Gpu::headless(RendererChoice::Gpu))
         // Not `eprintln!`, which the test runner hides when a test passes.
         .inspect_err(|error| drop(writeln!(io::stderr(), "SKIPPED {test}: {error}")))
@@ -25,47 +25,47 @@ pub(in crate::view) fn gpu_or_skip(test: &str) -> Option<Gpu> {
 }
 
 /// Tightly packed RGBA rows.
-pub(in crate::view) struct Pixels {
-    pub(in crate::view) size_px: [u32; 2],
-    pub(in crate::view) rows: Vec<u8>,
+pub(crate) struct Pixels {
+    pub(crate) size_px: [u32; 2],
+    pub(crate) rows: Vec<u8>,
 }
 
 impl Pixels {
-    pub(in crate::view) fn at(&self, x: u32, y: u32) -> [u8; 4] {
+    pub(crate) fn at(&self, x: u32, y: u32) -> [u8; 4] {
         let first = 4 * (y * self.size_px[0] + x) as usize;
         self.rows[first..first + 4].try_into().expect("four bytes are four bytes")
     }
 
     /// Number of pixels that are not black.
-    pub(in crate::view) fn count_lit(&self) -> usize {
+    pub(crate) fn count_lit(&self) -> usize {
         self.rows.chunks_exact(4).filter(|pixel| pixel[..3] != [0, 0, 0]).count()
     }
 
     /// The sum of a channel over all pixels, 1 for a full one.
-    pub(in crate::view) fn sum(&self, channel: usize) -> f32 {
+    pub(crate) fn sum(&self, channel: usize) -> f32 {
         self.rows.iter().skip(channel).step_by(4).map(|&value| f32::from(value) / 255.0).sum()
     }
 }
 
 /// Draws a picture alone on black, with a stage that fills the target at `scale` pixels per point.
-pub(in crate::view) fn draw_picture(size_px: [u32; 2], scale: f32, picture: &Picture) -> Pixels {
+pub(crate) fn draw_picture(size_px: [u32; 2], scale: f32, picture: &Picture) -> Pixels {
     let drawing = stage_alone(&mut BackdropFinder::default(), size_px, scale, picture);
     paint(&mut executor(), &drawing)
 }
 
-pub(in crate::view) fn executor() -> CpuExecutor {
+pub(crate) fn executor() -> CpuExecutor {
     CpuExecutor::new(NonZero::<usize>::MIN)
 }
 
 /// The pixels of the next drawing of an executor's renderer.
-pub(in crate::view) fn paint(executor: &mut CpuExecutor, drawing: &Drawing) -> Pixels {
+pub(crate) fn paint(executor: &mut CpuExecutor, drawing: &Drawing) -> Pixels {
     let mut rows = Vec::new();
     executor.execute(drawing, &mut rows);
     Pixels { size_px: drawing.size_px, rows }
 }
 
 /// The drawing of a picture alone, with a stage that fills the target at `scale` pixels per point.
-pub(in crate::view) fn stage_alone(
+pub(crate) fn stage_alone(
     backdrops: &mut BackdropFinder,
     size_px: [u32; 2],
     scale: f32,
@@ -79,11 +79,7 @@ pub(in crate::view) fn stage_alone(
 }
 
 /// The pixels of a drawing from a device.
-pub(in crate::view) fn paint_on(
-    gpu: &Gpu,
-    executor: &mut GpuExecutor,
-    drawing: &Drawing,
-) -> Pixels {
+pub(crate) fn paint_on(gpu: &Gpu, executor: &mut GpuExecutor, drawing: &Drawing) -> Pixels {
     let target = Offscreen::new(gpu, drawing.size_px).expect("tests ask for small targets");
     let commands = executor.encode(gpu, drawing, &target.view);
     let mut rows = Vec::new();
@@ -93,29 +89,29 @@ pub(in crate::view) fn paint_on(
 }
 
 /// A clip rectangle that clips nothing.
-pub(in crate::view) const EVERYWHERE: Rect = Rect { min: [-1e4; 2], max: [1e4; 2] };
+pub(crate) const EVERYWHERE: Rect = Rect { min: [-1e4; 2], max: [1e4; 2] };
 
 /// A window of this size in points. It lays frames out without drawing them.
 ///
 /// `egui_kittest` finds the texts of a screen reader. These tests instead judge every painted text with its place and
 /// its clip, and point at places of plots.
-pub(in crate::view) struct TestWindow {
-    pub(in crate::view) context: Context,
-    pub(in crate::view) size: Vec2,
+pub(crate) struct TestWindow {
+    pub(crate) context: Context,
+    pub(crate) size: Vec2,
     /// Time of the last frame, and time between frames, in seconds.
-    pub(in crate::view) time_s: f64,
-    pub(in crate::view) frame_s: f64,
+    pub(crate) time_s: f64,
+    pub(crate) frame_s: f64,
 }
 
 impl TestWindow {
-    pub(in crate::view) fn new(size: impl Into<Vec2>) -> Self {
+    pub(crate) fn new(size: impl Into<Vec2>) -> Self {
         let context = Context::default();
         theme::apply_style(&context);
         Self { context, size: size.into(), time_s: 0.0, frame_s: 1.0 / 60.0 }
     }
 
     /// Lays out a frame after these events. Returns the result of `layout`, and the texts of the frame.
-    pub(in crate::view) fn show<T>(
+    pub(crate) fn show<T>(
         &mut self,
         events: Vec<Event>,
         mut layout: impl FnMut(&mut Ui) -> T,
@@ -139,39 +135,35 @@ impl TestWindow {
     }
 
     /// Lays out all panels after these events. Returns their commands and the texts of the frame.
-    pub(in crate::view) fn panels(
-        &mut self,
-        studio: &Studio,
-        events: Vec<Event>,
-    ) -> (Vec<Command>, Shown) {
+    pub(crate) fn panels(&mut self, studio: &Studio, events: Vec<Event>) -> (Vec<Command>, Shown) {
         self.show(events, |ui| panels::show(ui, studio).0)
     }
 
     /// The commands of the panels in the frames of a click.
-    pub(in crate::view) fn click(&mut self, studio: &Studio, at: Pos2) -> Vec<Command> {
+    pub(crate) fn click(&mut self, studio: &Studio, at: Pos2) -> Vec<Command> {
         let frames = [Event::PointerMoved(at), button(at, true), button(at, false)];
         frames.into_iter().flat_map(|event| self.panels(studio, vec![event]).0).collect()
     }
 }
 
 /// A press or a release of the first mouse button.
-pub(in crate::view) fn button(pos: Pos2, pressed: bool) -> Event {
+pub(crate) fn button(pos: Pos2, pressed: bool) -> Event {
     let (button, modifiers) = (PointerButton::Primary, Modifiers::NONE);
     Event::PointerButton { pos, button, pressed, modifiers }
 }
 
 /// Texts of a frame, and the output for a screen reader if the window's context has it enabled.
-pub(in crate::view) struct Shown {
-    pub(in crate::view) texts: Vec<ShownText>,
+pub(crate) struct Shown {
+    pub(crate) texts: Vec<ShownText>,
     /// Visible parts of the rings around the focused widget.
-    pub(in crate::view) rings: Vec<egui::Rect>,
-    pub(in crate::view) heard: Vec<String>,
+    pub(crate) rings: Vec<egui::Rect>,
+    pub(crate) heard: Vec<String>,
 }
 
 /// A text and its clip.
-pub(in crate::view) struct ShownText {
-    pub(in crate::view) shape: TextShape,
-    pub(in crate::view) clip: egui::Rect,
+pub(crate) struct ShownText {
+    pub(crate) shape: TextShape,
+    pub(crate) clip: egui::Rect,
 }
 
 impl ShownText {
@@ -182,12 +174,12 @@ impl ShownText {
 
 impl Shown {
     /// Every text, with its place.
-    pub(in crate::view) fn all(&self) -> Vec<(egui::Rect, String)> {
+    pub(crate) fn all(&self) -> Vec<(egui::Rect, String)> {
         self.texts.iter().map(ShownText::placed).collect()
     }
 
     /// Every text that is not clipped, with its place.
-    pub(in crate::view) fn whole(&self) -> Vec<(egui::Rect, String)> {
+    pub(crate) fn whole(&self) -> Vec<(egui::Rect, String)> {
         let is_whole = |text: &&ShownText| {
             text.clip.expand(0.5).contains_rect(text.shape.visual_bounding_rect())
         };
@@ -195,7 +187,7 @@ impl Shown {
     }
 
     /// The words of every text.
-    pub(in crate::view) fn words(&self) -> Vec<String> {
+    pub(crate) fn words(&self) -> Vec<String> {
         self.all().into_iter().map(|(_, words)| words).collect()
     }
 }

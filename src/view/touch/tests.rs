@@ -4,7 +4,7 @@ use super::*;
 use crate::scene::Scene;
 use crate::stage::{Whose, compose};
 use crate::studio::{HeldBody, RunCommand, StageCommand, Step, ViewCommand, shown_state};
-use crate::view::tests::testing::TestWindow;
+use crate::tests::testing::TestWindow;
 
 /// A studio with a stage, and the pointer over it.
 struct Table {

@@ -1,4 +1,5 @@
-//! A room of `src` names the rooms that the table at the head of `src/lib.rs` lets it name, and no other.
+//! A room of `src` names the rooms that the table at the head of `src/lib.rs` lets it name, and no other. Cargo keeps a room with
+//! a package to what its manifest lists.
 
 use std::collections::BTreeSet;
 
@@ -8,6 +9,7 @@ use super::{Source, none, root, sources};
 /// A row of the table.
 pub(super) struct Room {
     pub(super) name: String,
+    package: String,
     may_name: BTreeSet<String>,
     open_first: String,
 }
@@ -24,10 +26,28 @@ pub(super) fn rooms() -> Vec<Room> {
     let rows = rows.map(|row| row.trim_end_matches(" |").split(" | ").collect::<Vec<_>>());
     let room = |cells: Vec<&str>| Room {
         name: ticked(cells[0]).into(),
-        may_name: ticked(cells[2]).split(' ').map(String::from).collect(),
-        open_first: ticked(cells[3]).into(),
+        package: ticked(cells[1]).into(),
+        may_name: ticked(cells[3]).split_whitespace().map(String::from).collect(),
+        open_first: ticked(cells[4]).into(),
     };
     rows.map(room).collect()
+}
+
+impl Room {
+    /// Whether the room is a package of its own, whose paths begin in its folder.
+    pub(super) fn is_package(&self) -> bool {
+        self.package == format!("regatta-{}", self.name)
+    }
+
+    /// The rooms that the package's manifest lists for more than its tests.
+    fn listed(&self) -> BTreeSet<String> {
+        let manifest = root().join("src").join(&self.name).join("Cargo.toml");
+        let manifest = std::fs::read_to_string(manifest).expect("a room's manifest");
+        let (_, after) = manifest.split_once("[dependencies]\n").unwrap_or_default();
+        let lines = after.lines().take_while(|line| !line.starts_with('['));
+        let names = lines.filter_map(|line| line.strip_prefix("regatta-"));
+        names.filter_map(|name| name.split(['.', ' ']).next()).map(String::from).collect()
+    }
 }
 
 /// The files of a room: its folder, and the file of the same name.
@@ -54,9 +74,14 @@ fn a_room_names_only_the_rooms_that_its_row_lists() {
     assert!(rooms.len() > 10 && rooms.iter().all(|room| !of_room(&room.name).is_empty()));
     for (n, room) in rooms.iter().enumerate() {
         let below: BTreeSet<String> = rooms[..n].iter().map(|room| room.name.clone()).collect();
-        let listed = room.may_name.iter().filter(|name| !name.is_empty() && !below.contains(*name));
+        let listed = room.may_name.iter().filter(|name| !below.contains(*name));
         none(listed.map(|name| format!("{} lists {name}, which is above it", room.name)).collect());
         assert!(root().join("src").join(&room.open_first).exists(), "{}", room.open_first);
+        if room.is_package() {
+            assert_eq!(room.listed(), room.may_name, "the manifest of {}", room.name);
+            continue;
+        }
+        assert_eq!(room.package, "regatta", "{}", room.name);
         let is_test = |source: &Source| source.path.ends_with("/tests.rs");
         let files = of_room(&room.name).into_iter().filter(|source| !is_test(source));
         none(files.flat_map(|source| strangers(&source, room, &rooms)).collect());
@@ -76,11 +101,11 @@ fn every_folder_of_the_source_is_a_room_or_a_text() {
 
 #[test]
 fn a_name_from_a_room_above_is_detected() {
-    let (rooms, text) =
-        (rooms(), "use crate::{studio::Studio, sim::State};\nfn f(a: crate::view::A) {}");
-    let source = Source { path: "src/run/race.rs".into(), text: text.into() };
+    let text = "use crate::{commands::Cli, sim::State};\nfn f(a: crate::view::A) {}";
+    let (rooms, source) =
+        (rooms(), Source { path: "src/window/event.rs".into(), text: text.into() });
+    let window = rooms.iter().find(|room| room.name == "window").expect("a room");
+    assert_eq!(strangers(&source, window, &rooms).len(), 2);
     let run = rooms.iter().find(|room| room.name == "run").expect("a room");
-    assert_eq!(strangers(&source, run, &rooms).len(), 2);
-    let view = rooms.iter().find(|room| room.name == "view").expect("a room");
-    assert_eq!(strangers(&source, view, &rooms), ["src/run/race.rs may not name sim"]);
+    assert!(run.is_package() && run.listed().contains("sim") && !window.is_package());
 }

@@ -56,3 +56,27 @@ fn a_body_without_truth_has_no_extent_and_the_truth_has_one_from_its_start() {
     let lane = Lane::new(&scene, Solver::Method(&GENERAL_METHODS[0]), 1);
     assert!(lane.bodies()[0].extent().is_none());
 }
+
+fn ranges(scene: &Scene) -> Vec<(f64, f64)> {
+    let lane = Lane::new(scene, Solver::Truth, 1);
+    lane.bodies()[0].preview().ranges.clone()
+}
+
+#[test]
+fn the_extent_of_a_built_in_scene_is_computed_once_for_all_copies() {
+    for name in ["rope", "jump"] {
+        let preview = || {
+            let scene = Scene::built_in(name).unwrap();
+            Lane::new(&scene, Solver::Truth, 1).bodies()[0].preview()
+        };
+        assert!(Arc::ptr_eq(&preview(), &preview()), "{name}");
+    }
+}
+
+#[test]
+fn the_range_of_a_coordinate_is_found_before_the_motion_is_drawn() {
+    let law = "title = 'Mine'\ntick_hz = 60\nseconds = 5\n\
+        [[law]]\n[law.coordinates.x]\nstart = 2\nacceleration = '-9*x'";
+    let &[(least, most)] = &ranges(&Scene::parse("mine.toml", law).unwrap())[..] else { panic!() };
+    assert!((least + 2.0).abs() < 0.01 && (most - 2.0).abs() < 0.01, "{least} to {most}");
+}

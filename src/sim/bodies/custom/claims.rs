@@ -1,11 +1,11 @@
-//! Gives the claims of a custom body to the [checker](crate::sim::bodies::claims).
+//! Gives the claims of a custom body to the [checker](crate::bodies::claims).
 
 use super::Custom;
-use crate::sim::bodies::claims::{self, Checked, ClaimFault, ClaimHorizon, Claimant, TIMES};
-use crate::sim::body::Body;
-use crate::sim::numerics::{OFFSETS, XorShift, fourth_order};
-use crate::sim::state::State;
-use crate::sim::system::System;
+use crate::bodies::claims::{self, Checked, ClaimFault, ClaimHorizon, Claimant, TIMES};
+use crate::body::Body;
+use crate::numerics::{OFFSETS, XorShift, fourth_order};
+use crate::state::State;
+use crate::system::System;
 
 /// A false claim about a custom body. Messages are in lower case.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -5,14 +5,14 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use super::motion::Motion;
 use super::{Custom, CustomFault, Extras, claims};
-use crate::sim::batch::{Batch, Copies, InstructionSet, NewBatch, UniformBlock};
-use crate::sim::bodies::claims::ClaimHorizon;
-use crate::sim::bodies::kind::{Coordinate, CustomInfo, Kind, Origin};
-use crate::sim::integrators::Problem;
-use crate::sim::parameter::{Fault, Parameter, ParameterOf, Range, TakesEffect, Text};
-use crate::sim::state::{State, Vector};
-use crate::sim::stepper::Solver;
-use crate::sim::system::{StateOf, System};
+use crate::batch::{Batch, Copies, InstructionSet, NewBatch, UniformBlock};
+use crate::bodies::claims::ClaimHorizon;
+use crate::bodies::kind::{Coordinate, CustomInfo, Kind, Origin};
+use crate::integrators::Problem;
+use crate::parameter::{Fault, Parameter, ParameterOf, Range, TakesEffect, Text};
+use crate::state::{State, Vector};
+use crate::stepper::Solver;
+use crate::system::{StateOf, System};
 
 /// The key of the only parameter of a body without parameters of its own.
 const FORCE: &str = "force";

@@ -5,11 +5,11 @@ use std::cell::RefCell;
 use std::fmt;
 
 use super::{Energy, Exact, Extras};
-use crate::sim::integrators::{Problem, problem};
-use crate::sim::parameter::ParameterOf;
-use crate::sim::state::{Elementwise, State, Vector};
-use crate::sim::system::{Coupling, EngineSettings, Query, System};
-use crate::sim::vec_system::{Scratch, VecSystem};
+use crate::integrators::{Problem, problem};
+use crate::parameter::ParameterOf;
+use crate::state::{Elementwise, State, Vector};
+use crate::system::{Coupling, EngineSettings, Query, System};
+use crate::vec_system::{Scratch, VecSystem};
 
 /// The motion of a custom body. It answers no query for a target, because a body that follows a target has a kind of
 /// its own.

@@ -1,13 +1,13 @@
-//! Gives the claims of a law to the [checker](crate::sim::bodies::claims).
+//! Gives the claims of a law to the [checker](crate::bodies::claims).
 
 use std::sync::Arc;
 
 use super::Law;
-use crate::sim::bodies::claims::{self, Checked, ClaimHorizon, Claimant};
-use crate::sim::body::Body;
-use crate::sim::law::{CoordinateText, Equations, LawFault, Part, Remedy};
-use crate::sim::state::State;
-use crate::sim::system::System;
+use crate::bodies::claims::{self, Checked, ClaimHorizon, Claimant};
+use crate::body::Body;
+use crate::law::{CoordinateText, Equations, LawFault, Part, Remedy};
+use crate::state::State;
+use crate::system::System;
 
 /// The rounding of a sum of terms, in parts of their magnitudes.
 const ROUNDING: f64 = 16.0 * f64::EPSILON;

@@ -6,18 +6,18 @@ use std::cell::RefCell;
 use std::sync::Arc;
 
 use super::{Law, known};
-use crate::sim::batch::{Batch, Copies, InstructionSet, Kernel, NewBatch};
-use crate::sim::integrators::{Problem, problem};
-use crate::sim::law::{Equations, LawLanes};
-use crate::sim::state::State;
-use crate::sim::stepper::Solver;
-use crate::sim::system::System;
+use crate::batch::{Batch, Copies, InstructionSet, Kernel, NewBatch};
+use crate::integrators::{Problem, problem};
+use crate::law::{Equations, LawLanes};
+use crate::state::State;
+use crate::stepper::Solver;
+use crate::system::System;
 
 /// Copies of a law of one coordinate.
 #[derive(Clone)]
 struct LawCopies {
     equations: Arc<Equations>,
-    /// The values of [`Registers`](crate::sim::law::Registers).
+    /// The values of [`Registers`](crate::law::Registers).
     values: Arc<[f64]>,
     /// Throttle and rudder.
     steering: [f64; 2],

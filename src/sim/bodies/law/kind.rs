@@ -4,12 +4,12 @@ use std::sync::Arc;
 
 use super::Law;
 use super::claims::{check_start, first_key};
-use crate::sim::bodies::kind::{Coordinate, Kind, Origin};
-use crate::sim::body::Body;
-use crate::sim::law::{CoordinateText, Equations, LawFault, LawText};
-use crate::sim::numerics::quotient;
-use crate::sim::parameter::{Fault, Parameter, Range, TakesEffect, Text};
-use crate::sim::system::System;
+use crate::bodies::kind::{Coordinate, Kind, Origin};
+use crate::body::Body;
+use crate::law::{CoordinateText, Equations, LawFault, LawText};
+use crate::parameter::{Fault, Parameter, Range, TakesEffect, Text};
+use crate::state::quotient;
+use crate::system::System;
 
 /// Returns the kind of bodies that move by this law. The parameters of the kind are the constants, then the starts
 /// `x.start` of all coordinates, their start velocities `x.start_velocity`, and their kicks `x.kick`.

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use crate::sim::net_plan::{Lists, NetPlan, PlannedSpring};
+use crate::net_plan::{Lists, NetPlan, PlannedSpring};
 
 /// The index of a fixed node, which has no coordinates.
 const FIXED: u32 = u32::MAX;

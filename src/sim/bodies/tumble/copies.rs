@@ -6,10 +6,10 @@ use std::ops::Range;
 use glam::DVec3;
 
 use super::Tumble;
-use crate::sim::batch::{Advance, Batch, Chunks, InstructionSet, NewBatch, Ticks};
-use crate::sim::body_stepper::stepper;
-use crate::sim::state::State;
-use crate::sim::stepper::{Solver, Stepper};
+use crate::batch::{Advance, Batch, Chunks, InstructionSet, NewBatch, Ticks};
+use crate::body_stepper::stepper;
+use crate::state::State;
+use crate::stepper::{Solver, Stepper};
 
 impl Tumble {
     /// Returns the principal axis from which true motions of the body's start stay farther away, of the axes of the

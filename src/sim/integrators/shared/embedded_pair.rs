@@ -4,10 +4,10 @@
 use std::marker::PhantomData;
 
 use super::step_size::{StepSize, steady_factor};
-use crate::sim::integrators::failure::Stepped;
-use crate::sim::integrators::integrator::{Integrator, Override, Tolerance};
-use crate::sim::state::{Elementwise, State, Vector};
-use crate::sim::system::{StateOf, System};
+use crate::integrators::failure::Stepped;
+use crate::integrators::integrator::{Integrator, Override, Tolerance};
+use crate::state::{Elementwise, State, Vector};
+use crate::system::{StateOf, System};
 
 /// The tableau of a pair of `N` stages. The last stage is at the kept solution, so that its slope is the first of the
 /// next step. This slope is evaluated if the error needs it or another step follows. If the error needs it, it is also

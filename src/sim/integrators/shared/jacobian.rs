@@ -5,15 +5,15 @@
 
 use super::linearisation::alternate;
 use super::slopes::{Slopes, comb};
-use crate::sim::state::{State, Vector, largest};
-use crate::sim::system::{Coupling, System};
+use crate::state::{State, Vector, largest};
+use crate::system::{Coupling, System};
 
 /// The safety factor that turns max|J·(±1, …)| into a bound on ‖J‖∞.
 const SPARSE_NORM: f64 = 2.0;
 
 /// `∂a/∂q` and `∂a/∂v` at a state.
 #[derive(Clone)]
-pub(in crate::sim::integrators) struct Jacobian<V> {
+pub(in crate::integrators) struct Jacobian<V> {
     slopes: Slopes<V>,
     t: f64,
     at: State<V>,
@@ -35,13 +35,13 @@ fn rows(j: usize, reach: usize, n: usize) -> (usize, usize) {
 
 impl<V: Vector> Jacobian<V> {
     /// Returns a Jacobian with both derivatives.
-    pub(in crate::sim::integrators) fn new(like: &V, coupling: Coupling) -> Self {
+    pub(in crate::integrators) fn new(like: &V, coupling: Coupling) -> Self {
         let by_v = Self::by_velocity(like, coupling);
         Self { da_dq: by_v.da_dv.clone(), ..by_v }
     }
 
     /// Returns a Jacobian with `∂a/∂v` alone.
-    pub(in crate::sim::integrators) fn by_velocity(like: &V, coupling: Coupling) -> Self {
+    pub(in crate::integrators) fn by_velocity(like: &V, coupling: Coupling) -> Self {
         let n = like.components().len();
         let reach = coupling.reach(n);
         let entries = reach.map_or(0, |reach| n * rows(0, reach, n).1);
@@ -60,7 +60,7 @@ impl<V: Vector> Jacobian<V> {
 
     /// Computes the derivatives at `t` and `y`, where the acceleration is `a`, for a step of `h`.
     #[inline]
-    pub(in crate::sim::integrators) fn compute(
+    pub(in crate::integrators) fn compute(
         &mut self,
         system: &impl System<Vector = V>,
         t: f64,
@@ -97,13 +97,13 @@ impl<V: Vector> Jacobian<V> {
 
     /// Returns `∂a/∂q` and `∂a/∂v` of a system of one coordinate.
     #[inline]
-    pub(in crate::sim::integrators) fn of_one(&self) -> [f64; 2] {
+    pub(in crate::integrators) fn of_one(&self) -> [f64; 2] {
         [self.da_dq.first().copied().unwrap_or(0.0), self.da_dv[0]]
     }
 
     /// Returns `∂a/∂q q + ∂a/∂v v`. An empty `q` counts as 0.
     #[inline]
-    pub(in crate::sim::integrators) fn times(
+    pub(in crate::integrators) fn times(
         &mut self,
         system: &(impl System<Vector = V> + ?Sized),
         q: &[f64],
@@ -135,10 +135,7 @@ impl<V: Vector> Jacobian<V> {
     }
 
     /// Returns bounds on the largest row sums of `∂a/∂q` and of `∂a/∂v`.
-    pub(in crate::sim::integrators) fn norms(
-        &mut self,
-        system: &dyn System<Vector = V>,
-    ) -> [f64; 2] {
+    pub(in crate::integrators) fn norms(&mut self, system: &dyn System<Vector = V>) -> [f64; 2] {
         let Self { slopes, t, at, along, slope, reach, da_dq, da_dv } = self;
         let Some(reach) = *reach else {
             return [true, false].map(|is_by_q| {

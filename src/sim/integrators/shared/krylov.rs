@@ -7,7 +7,7 @@
 //! no solver for such a matrix. faer is many times the size of this layer and chooses its sums by the processor, while
 //! ours have the same bits everywhere.
 
-use crate::sim::state::largest;
+use crate::state::largest;
 
 /// The maximum number of products of matrix and vector in one step of a method. A soft net needs tens and a stiff net
 /// hundreds. If there were no limit, the iteration on equations without a solution would never end.

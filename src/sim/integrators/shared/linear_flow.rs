@@ -4,9 +4,9 @@
 //! Higham, *Computing the action of the matrix exponential*, 2011). If there are too many pieces and the matrix is
 //! small, scaling and squaring replaces the series. Both use products and sums only.
 
-use crate::sim::integrators::failure::{StepFailure, Stepped};
-use crate::sim::state::largest;
-use crate::sim::system::Coupling;
+use crate::integrators::failure::{StepFailure, Stepped};
+use crate::state::largest;
+use crate::system::Coupling;
 
 /// The degree of the Taylor polynomial. Over a piece of norm 1 the polynomial omits 1/19!, which is less than a unit of
 /// round-off.
@@ -31,7 +31,7 @@ const SHORT: f64 = 0.25;
 /// The function uses products and sums only. It sums the series over a part of the time, and doubles the part until it
 /// is the whole time. For a decaying motion, no term cancels another.
 #[inline]
-pub(in crate::sim::integrators) fn response(y: f64, z: f64) -> [f64; 3] {
+pub(in crate::integrators) fn response(y: f64, z: f64) -> [f64; 3] {
     let (mut y, mut z, mut doublings) = (y, z, 0);
     while z.abs() > SHORT || y.abs() > SHORT * SHORT {
         if !(y + z).is_finite() {
@@ -73,7 +73,7 @@ const INVERSE_FACTORIALS: [[f64; 2]; TERMS] = {
 
 /// Scratch for the flow of a system of linear equations.
 #[derive(Clone)]
-pub(in crate::sim::integrators) struct LinearFlow {
+pub(in crate::integrators) struct LinearFlow {
     term: Vec<f64>,
     next: Vec<f64>,
     squaring: Option<Box<Squaring>>,
@@ -81,7 +81,7 @@ pub(in crate::sim::integrators) struct LinearFlow {
 
 impl LinearFlow {
     /// Returns scratch for `size` equations of coordinates with this coupling.
-    pub(in crate::sim::integrators) fn new(size: usize, coupling: Coupling) -> Self {
+    pub(in crate::integrators) fn new(size: usize, coupling: Coupling) -> Self {
         let is_small = coupling != Coupling::Few && size <= SMALL;
         let squaring = is_small.then(|| Box::new(Squaring::new(size + 2)));
         Self { term: vec![0.0; size], next: vec![0.0; size], squaring }
@@ -92,7 +92,7 @@ impl LinearFlow {
     ///
     /// # Errors
     /// [`StepFailure::TooManySubsteps`] if a large matrix needs too many pieces.
-    pub(in crate::sim::integrators) fn advance(
+    pub(in crate::integrators) fn advance(
         &mut self,
         x: &mut [f64],
         b: &[f64],

@@ -9,19 +9,19 @@ use super::krylov::{Krylov, add};
 use super::lu::StageLu;
 use super::slopes::{Forward, Slopes, comb};
 use super::stages::Stages;
-use crate::sim::integrators::failure::{StepFailure, Stepped};
-use crate::sim::state::{State, Vector, largest};
-use crate::sim::system::{Coupling, System};
+use crate::integrators::failure::{StepFailure, Stepped};
+use crate::state::{State, Vector, largest};
+use crate::system::{Coupling, System};
 
 /// The residual at which an iteration has solved the equations of a step, relative to the right-hand side.
 const TOLERANCE: f64 = 1e-10;
 
 /// The states at the stages of a step, and the slopes of the forces there.
 #[derive(Clone)]
-pub(in crate::sim::integrators) struct Linearisation<V, const S: usize> {
+pub(in crate::integrators) struct Linearisation<V, const S: usize> {
     /// The states at which the forces are linearised.
-    pub(in crate::sim::integrators) at: [State<V>; S],
-    pub(in crate::sim::integrators) slopes: Slopes<V>,
+    pub(in crate::integrators) at: [State<V>; S],
+    pub(in crate::integrators) slopes: Slopes<V>,
     along: State<V>,
     slope: V,
     /// The matrix of a single equation.
@@ -33,7 +33,7 @@ pub(in crate::sim::integrators) struct Linearisation<V, const S: usize> {
 }
 
 impl<V: Vector, const S: usize> Linearisation<V, S> {
-    pub(in crate::sim::integrators) fn new(like: &V, coupling: Coupling) -> Self {
+    pub(in crate::integrators) fn new(like: &V, coupling: Coupling) -> Self {
         let state = State { q: like.clone(), v: like.clone() };
         let n = like.components().len();
         let reach = coupling.reach(n);
@@ -181,7 +181,7 @@ impl<V: Vector, const S: usize> Linearisation<V, S> {
 impl<V: Vector> Linearisation<V, 1> {
     /// Adds `times` the derivative of the acceleration at `y` in the direction `(along, 0)` to `x`.
     #[inline]
-    pub(in crate::sim::integrators) fn add_slope(
+    pub(in crate::integrators) fn add_slope(
         &mut self,
         system: &impl System<Vector = V>,
         t: f64,
@@ -202,7 +202,7 @@ impl<V: Vector> Linearisation<V, 1> {
     /// # Errors
     /// [`StepFailure::LinearSolveFailed`] if an iteration does not converge.
     #[inline]
-    pub(in crate::sim::integrators) fn solve_at(
+    pub(in crate::integrators) fn solve_at(
         &mut self,
         system: &impl System<Vector = V>,
         t: f64,
@@ -248,7 +248,7 @@ pub(super) fn alternate<V: Vector>(x: &mut V, distance: f64) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::sim::integrators::{Family, METHODS, integrator};
+    use crate::integrators::{Family, METHODS, integrator};
 
     /// Separate springs, which are all equal, or each stiffer than the one before.
     struct Apart {

@@ -226,7 +226,7 @@ impl StageLu {
 #[cfg(all(test, feature = "lab"))]
 mod tests {
     use super::{Lu, StageLu};
-    use crate::sim::numerics::XorShift;
+    use crate::numerics::XorShift;
 
     #[test]
     fn a_matrix_that_needs_its_rows_swapped_is_solved() {

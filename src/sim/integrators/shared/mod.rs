@@ -1,7 +1,7 @@
 //! Building blocks that several methods share. The two smallest are here, and each of the others has its own file.
 
-use crate::sim::state::{Elementwise, State};
-use crate::sim::system::{StateOf, System};
+use crate::state::{Elementwise, State};
+use crate::system::{StateOf, System};
 
 pub(super) mod embedded_pair;
 pub(super) mod jacobian;
@@ -21,7 +21,7 @@ pub(super) mod step_size;
 /// Time advances with the drifts, and a kick uses the current velocity, so that forces that depend on velocity reduce
 /// the order.
 #[inline(always)]
-pub(in crate::sim::integrators) fn compose<S: System>(
+pub(in crate::integrators) fn compose<S: System>(
     system: &S,
     t: f64,
     h: f64,
@@ -43,28 +43,28 @@ pub(in crate::sim::integrators) fn compose<S: System>(
 /// The length of the last step of a method with memory, which is valid only for a next step of the same length.
 ///
 /// A method compares the lengths of steps itself. The caller reports a jump of the state or the forces by
-/// [`Integrator::reset`](crate::sim::integrators::Integrator::reset), because detecting a jump would cost a copy of the
+/// [`Integrator::reset`](crate::integrators::Integrator::reset), because detecting a jump would cost a copy of the
 /// state and a comparison per step.
 #[derive(Clone)]
-pub(in crate::sim::integrators) struct LastStep {
+pub(in crate::integrators) struct LastStep {
     /// The length in seconds. Without valid memory it is NaN, which equals nothing.
     h: f64,
 }
 
 impl LastStep {
     /// No valid memory, as before the first step and after a jump.
-    pub(in crate::sim::integrators) const NONE: Self = Self { h: f64::NAN };
+    pub(in crate::integrators) const NONE: Self = Self { h: f64::NAN };
 
     /// Whether a step of `h` is as long as the last step. Forgets the last step until the next step [ends](Self::end),
     /// so that a failed step leaves no memory.
     #[inline(always)]
-    pub(in crate::sim::integrators) fn is_continued_by(&mut self, h: f64) -> bool {
+    pub(in crate::integrators) fn is_continued_by(&mut self, h: f64) -> bool {
         std::mem::replace(&mut self.h, f64::NAN) == h
     }
 
     /// Records that a step of `h` has ended.
     #[inline(always)]
-    pub(in crate::sim::integrators) fn end(&mut self, h: f64) {
+    pub(in crate::integrators) fn end(&mut self, h: f64) {
         self.h = h;
     }
 }

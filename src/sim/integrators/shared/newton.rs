@@ -5,14 +5,14 @@
 //! continues to round-off, because a method conserves a quantity only as well as its equations are solved. If the
 //! iteration does not converge, continuation from a shorter step replaces it.
 //!
-//! For a body of many coordinates that depend on [few](crate::sim::Coupling::Few) others each, no matrix is formed. The
+//! For a body of many coordinates that depend on [few](crate::Coupling::Few) others each, no matrix is formed. The
 //! linear equations are then solved roughly, and a correction that increases the residual is shortened.
 
 use super::linearisation::Linearisation;
 use super::stages::{Stages, largest_of};
-use crate::sim::integrators::failure::{StepFailure, Stepped};
-use crate::sim::state::{State, Vector, assert_length, largest};
-use crate::sim::system::{Coupling, System};
+use crate::integrators::failure::{StepFailure, Stepped};
+use crate::state::{State, Vector, assert_length, largest};
+use crate::system::{Coupling, System};
 use continuation::SolutionCurve;
 
 mod continuation;
@@ -37,11 +37,11 @@ const EXTREMES: (f64, f64) = (1e-150, 1e150);
 /// Solves `A_i = a(t_i, Q_i, V_i)` for all `S` stages at once, where `Q_i = q_i + Σ α_ij A_j` and
 /// `V_i = v_i + Σ β_ij A_j`.
 #[derive(Clone)]
-pub(in crate::sim::integrators) struct Newton<V, const S: usize> {
+pub(in crate::integrators) struct Newton<V, const S: usize> {
     /// `q_i` and `v_i`, which the caller sets before solving.
-    pub(in crate::sim::integrators) base: [State<V>; S],
+    pub(in crate::integrators) base: [State<V>; S],
     /// `A_i`, the solution of the equations.
-    pub(in crate::sim::integrators) a: [V; S],
+    pub(in crate::integrators) a: [V; S],
     /// The force law evaluated at `A`.
     evaluated: [V; S],
     linearisation: Linearisation<V, S>,
@@ -102,7 +102,7 @@ impl Convergence {
 
 impl<V: Vector> Newton<V, 1> {
     /// Replaces `y` by the solution of `Y = y + c f(t, Y)`.
-    pub(in crate::sim::integrators) fn backward_euler(
+    pub(in crate::integrators) fn backward_euler(
         &mut self,
         system: &impl System<Vector = V>,
         t: f64,
@@ -119,7 +119,7 @@ impl<V: Vector> Newton<V, 1> {
 }
 
 impl<V: Vector, const S: usize> Newton<V, S> {
-    pub(in crate::sim::integrators) fn new(like: &V, coupling: Coupling) -> Self {
+    pub(in crate::integrators) fn new(like: &V, coupling: Coupling) -> Self {
         let state = State { q: like.clone(), v: like.clone() };
         let vectors = || std::array::from_fn(|_| like.clone());
         let linearisation = Linearisation::new(like, coupling);
@@ -138,7 +138,7 @@ impl<V: Vector, const S: usize> Newton<V, S> {
     }
 
     /// Solves for the accelerations at the stages.
-    pub(in crate::sim::integrators) fn solve(
+    pub(in crate::integrators) fn solve(
         &mut self,
         system: &impl System<Vector = V>,
         stages: &Stages<S>,

@@ -6,9 +6,9 @@
 //! A difference that only steers an iteration is a forward difference from the known force. It is so short that a
 //! corner of the force is seldom within its reach.
 
-use crate::sim::numerics::quotient;
-use crate::sim::state::{State, Vector, assert_length, largest};
-use crate::sim::system::{Query, System};
+use crate::state::quotient;
+use crate::state::{State, Vector, assert_length, largest};
+use crate::system::{Query, System};
 
 /// The reach of a difference, as a fraction of the motion of a step. With a larger fraction, curvature would distort
 /// the slope more. With a smaller one, rounding would.
@@ -19,9 +19,9 @@ const PART: f64 = 1.0 / 16.0;
 const MIN_REACH: f64 = 1.5e-8;
 
 /// The base value of a forward difference, and its step as a part of the direction.
-pub(in crate::sim::integrators) struct Forward<'a, V> {
-    pub(in crate::sim::integrators) from: &'a V,
-    pub(in crate::sim::integrators) part: f64,
+pub(in crate::integrators) struct Forward<'a, V> {
+    pub(in crate::integrators) from: &'a V,
+    pub(in crate::integrators) part: f64,
 }
 
 /// Overwrites `x` with `weight` at the coordinates `first`, `first + apart` and so on, and 0 elsewhere.
@@ -43,7 +43,7 @@ pub(super) fn comb<V: Vector>(x: &mut V, first: usize, apart: usize, weight: f64
 
 /// Scratch for the differences.
 #[derive(Clone)]
-pub(in crate::sim::integrators) struct Slopes<V> {
+pub(in crate::integrators) struct Slopes<V> {
     /// The largest displacements of coordinates and of velocities.
     reach: [f64; 2],
     moved: State<V>,
@@ -51,14 +51,14 @@ pub(in crate::sim::integrators) struct Slopes<V> {
 }
 
 impl<V: Vector> Slopes<V> {
-    pub(in crate::sim::integrators) fn new(like: &V) -> Self {
+    pub(in crate::integrators) fn new(like: &V) -> Self {
         let moved = State { q: like.clone(), v: like.clone() };
         Self { reach: [0.0; 2], moved, behind: like.clone() }
     }
 
     /// Chooses the reach of central differences for a step of `h` from `y`, where the acceleration is `a`.
     #[inline]
-    pub(in crate::sim::integrators) fn reach_for(&mut self, h: f64, y: &State<V>, a: &V) {
+    pub(in crate::integrators) fn reach_for(&mut self, h: f64, y: &State<V>, a: &V) {
         assert_length(a.components().len(), y.q.components().len());
         let [q, v, a] = [&y.q, &y.v, a].map(|part| largest(part.components()));
         let change = v + h.abs() * a;
@@ -69,7 +69,7 @@ impl<V: Vector> Slopes<V> {
     /// Overwrites `slope` with the derivative of the acceleration at `y` in the direction `along`. A difference is
     /// central if `forward` is `None`.
     #[inline]
-    pub(in crate::sim::integrators) fn differentiate(
+    pub(in crate::integrators) fn differentiate(
         &mut self,
         system: &(impl System<Vector = V> + ?Sized),
         t: f64,

@@ -1,15 +1,15 @@
 //! The stages of an implicit method, whose accelerations are the unknowns.
 
-use crate::sim::state::{State, Vector, largest};
-use crate::sim::system::System;
+use crate::state::{State, Vector, largest};
+use crate::system::System;
 
 /// The times of the stages, and the weights α and β of the accelerations in the coordinates and velocities of the
 /// stages.
 #[derive(Clone, Copy)]
-pub(in crate::sim::integrators) struct Stages<const S: usize> {
-    pub(in crate::sim::integrators) t: [f64; S],
-    pub(in crate::sim::integrators) alpha: [[f64; S]; S],
-    pub(in crate::sim::integrators) beta: [[f64; S]; S],
+pub(in crate::integrators) struct Stages<const S: usize> {
+    pub(in crate::integrators) t: [f64; S],
+    pub(in crate::integrators) alpha: [[f64; S]; S],
+    pub(in crate::integrators) beta: [[f64; S]; S],
 }
 
 impl<const S: usize> Stages<S> {

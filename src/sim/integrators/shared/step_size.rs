@@ -6,9 +6,9 @@
 //! method of order p takes `tolerance^(-1/p)` substeps.
 
 use super::LastStep;
-use crate::sim::integrators::failure::StepFailure;
-use crate::sim::integrators::integrator::Tolerance;
-use crate::sim::state::{State, Vector};
+use crate::integrators::failure::StepFailure;
+use crate::integrators::integrator::Tolerance;
+use crate::state::{State, Vector};
 
 /// The factor by which a step is shortened to aim below the tolerance, so that few attempts are rejected.
 const SAFETY: f64 = 0.9;
@@ -27,7 +27,7 @@ const MAX_ATTEMPTS: u32 = 10_000;
 /// Returns the factor for the length of the next step. `root` is the error relative to the tolerance, to the power 1 /
 /// p.
 #[inline]
-pub(in crate::sim::integrators) fn factor(root: f64) -> f64 {
+pub(in crate::integrators) fn factor(root: f64) -> f64 {
     let factor = (SAFETY / root).clamp(FACTORS.0, FACTORS.1);
     if factor.is_nan() { FACTORS.0 } else { factor }
 }

@@ -3,13 +3,13 @@
 use std::ops::Range;
 
 use super::{Node, Parser, Scope, parse};
-use crate::sim::curve::Curve;
-use crate::sim::law::fault::{Parsed, fault};
-use crate::sim::law::function::{Function, Meaning};
-use crate::sim::law::op::Op;
-use crate::sim::law::switch::{ModeRule, Switch, SwitchValue};
-use crate::sim::law::token::Token;
-use crate::sim::parameter::MAX_POINTS;
+use crate::curve::Curve;
+use crate::law::fault::{Parsed, fault};
+use crate::law::function::{Function, Meaning};
+use crate::law::op::Op;
+use crate::law::switch::{ModeRule, Switch, SwitchValue};
+use crate::law::token::Token;
+use crate::parameter::MAX_POINTS;
 
 /// The names of a written function, which are its arguments and the length of the step.
 struct Arguments(&'static [&'static str]);

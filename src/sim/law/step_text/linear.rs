@@ -4,46 +4,49 @@ use nalgebra::{Matrix2, Vector2};
 
 use super::powers::Powers;
 use super::{StepRegisters, StepText};
-use crate::sim::TickRate;
+use crate::TickRate;
 
 /// If an eigenvalue is this close to 1, the rule stays wherever it is.
-pub(crate) const NO_RETURN: f64 = 1e-13;
+pub const NO_RETURN: f64 = 1e-13;
 /// A rest this close to the target, relative to the target, is the target up to rounding.
-pub(crate) const AT_TARGET: f64 = 1e-11;
+pub const AT_TARGET: f64 = 1e-11;
 /// A logarithmic decay per frame below this number is rounding.
 const NO_DECAY: f64 = 1e-14;
 
 /// One frame of up to two numbers. The new numbers are `map` times the old ones, plus `by_target` times the target,
 /// plus `offset`.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Frame {
-    pub(crate) map: Matrix2<f64>,
-    pub(crate) by_target: Vector2<f64>,
-    pub(crate) offset: Vector2<f64>,
+pub struct Frame {
+    /// Factors of the old numbers.
+    pub map: Matrix2<f64>,
+    /// Factors of the target.
+    pub by_target: Vector2<f64>,
+    /// What is added in any case.
+    pub offset: Vector2<f64>,
 }
 
 impl Frame {
     /// Returns the values of the two numbers at rest, first per unit of the target, then for a target of 0. Returns
     /// `None` if the numbers have no rest.
-    pub(crate) fn rests(&self) -> Option<[Vector2<f64>; 2]> {
+    pub fn rests(&self) -> Option<[Vector2<f64>; 2]> {
         let inverse = (Matrix2::identity() - self.map).try_inverse()?;
         Some([inverse * self.by_target, inverse * self.offset])
     }
 
     /// Whether an eigenvalue is 1, so that the motion can end at any place.
-    pub(crate) fn keeps_place(&self) -> bool {
+    pub fn keeps_place(&self) -> bool {
         (1.0 - self.map.trace() + self.map.determinant()).abs() <= NO_RETURN
     }
 }
 
 /// Whether the second number of this map is the first number of the frame before.
-pub(crate) fn remembers_place(map: &Matrix2<f64>) -> bool {
+pub fn remembers_place(map: &Matrix2<f64>) -> bool {
     map.m21 == 1.0 && map.m22 == 0.0
 }
 
 impl StepText {
     /// Returns the indices of these carried numbers and of all carried numbers on which they depend.
-    pub(crate) fn with_causes(&self, mut state: Vec<usize>) -> Vec<usize> {
+    pub fn with_causes(&self, mut state: Vec<usize>) -> Vec<usize> {
         let (reads, mut next) = (self.dependencies(), 0);
         while let Some(&index) = state.get(next) {
             for read in &reads[index] {
@@ -63,7 +66,7 @@ impl StepText {
     }
 
     /// Returns the frame on the piece with these modes of the switches.
-    pub(crate) fn frame_on(&self, modes: &[i64], state: &[usize], h: f64) -> Option<Frame> {
+    pub fn frame_on(&self, modes: &[i64], state: &[usize], h: f64) -> Option<Frame> {
         if state.len() > 2 {
             return None;
         }

@@ -4,27 +4,34 @@ use super::reader::{
     COST, COUNT, FIRST, FRAME_NAMES, LENGTH, NOW, REFRESH, SECOND, SHOWN, SPIN_NAMES,
 };
 use super::{H, Line, StepBody, StepText, TARGET};
-use crate::sim::law::expression::Expression;
+use crate::law::expression::Expression;
 
 /// A number that a loop is given, or the moment that it shows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum LoopName {
+pub enum LoopName {
     /// Duration of the frame, `dt`.
     Duration,
     /// Length of a tick, `H`.
     Tick,
+    /// Duration of a refresh of the display, `refresh`.
     Refresh,
+    /// Units of time in a second, `second`.
     Second,
+    /// Work of a tick, `cost`.
     Cost,
+    /// Time at which the frame began, `now`.
     Now,
+    /// Whether the frame is the first, `first`.
     First,
+    /// The moment that is shown.
     Shown,
     /// A name that no line has, for a counter of ticks.
     Made,
 }
 
 impl LoopName {
-    pub(crate) const ALL: [Self; 9] = [
+    /// All of them.
+    pub const ALL: [Self; 9] = [
         Self::Duration,
         Self::Tick,
         Self::Refresh,
@@ -51,7 +58,7 @@ impl LoopName {
     }
 
     /// Returns the name among those of the lines.
-    pub(crate) fn name(self) -> &'static str {
+    pub fn name(self) -> &'static str {
         FRAME_NAMES[self.index()]
     }
 
@@ -63,24 +70,24 @@ impl LoopName {
 
 impl StepText {
     /// Whether the lines are those of a game loop.
-    pub(crate) fn is_loop(&self) -> bool {
+    pub fn is_loop(&self) -> bool {
         self.names.first().is_some_and(|name| name == FRAME_NAMES[0])
     }
 
     /// Whether times are whole numbers of a unit, in place of milliseconds.
-    pub(crate) fn is_whole_loop(&self) -> bool {
+    pub fn is_whole_loop(&self) -> bool {
         self.is_loop() && !self.inputs.is_empty()
     }
 
     /// Returns the names of the arrays, each with its size and the number with which it starts.
-    pub(crate) fn arrays(&self) -> impl Iterator<Item = (&str, usize, f64)> {
+    pub fn arrays(&self) -> impl Iterator<Item = (&str, usize, f64)> {
         self.arrays.iter().map(|array| (&*array.name, array.size, array.start))
     }
 }
 
 impl<'t> StepBody<'t> {
     /// Whether the lines are those of a game loop.
-    pub(crate) fn is_loop(self) -> bool {
+    pub fn is_loop(self) -> bool {
         self.function.is_none() && self.text.is_loop()
     }
 
@@ -94,17 +101,17 @@ impl<'t> StepBody<'t> {
     }
 
     /// Whether a game loop keeps this name from frame to frame, though it is no memory of the lines.
-    pub(crate) fn is_kept(self, name: usize) -> bool {
+    pub fn is_kept(self, name: usize) -> bool {
         self.is_loop() && LoopName::ALL.iter().any(|it| it.is_kept() && it.index() == name)
     }
 
     /// Returns the name of an array.
-    pub(crate) fn array(self, index: usize) -> &'t str {
+    pub fn array(self, index: usize) -> &'t str {
         &self.text.arrays[index].name
     }
 
     /// Returns the number and the length of the ticks that a line of a loop makes.
-    pub(crate) fn ticks(self, at: usize) -> Option<[&'t Expression; 2]> {
+    pub fn ticks(self, at: usize) -> Option<[&'t Expression; 2]> {
         match self.lines().get(at..at + 2)? {
             [
                 Line::Assign { name: COUNT, value: count, .. },
@@ -115,12 +122,12 @@ impl<'t> StepBody<'t> {
     }
 
     /// Whether a line of a loop sets the moment to show.
-    pub(crate) fn shows(self, at: usize) -> bool {
+    pub fn shows(self, at: usize) -> bool {
         self.is_loop() && matches!(self.lines()[at], Line::Assign { name: SHOWN, .. })
     }
 
     /// Whether what a loop does depends on this number.
-    pub(crate) fn depends_on(self, name: LoopName) -> bool {
+    pub fn depends_on(self, name: LoopName) -> bool {
         self.live_names()[name.index()]
     }
 
@@ -146,7 +153,7 @@ impl<'t> StepBody<'t> {
 
     /// For each line, whether it is one of a loop that a printer leaves out: an output of the lab alone, the sums of
     /// ticks, or a claim of the card.
-    pub(crate) fn left_out(self) -> Vec<bool> {
+    pub fn left_out(self) -> Vec<bool> {
         let lines = self.lines();
         if !self.is_loop() {
             return vec![false; lines.len()];

@@ -1,7 +1,7 @@
 //! The map of a step of a rule, with its derivatives and the pieces of its switches.
 
 use super::{H, StepText, SwitchKind, TARGET};
-use crate::sim::law::jet::Jet;
+use crate::law::jet::Jet;
 
 /// The carried numbers after a step, and their derivatives with respect to each carried number and then the target.
 #[derive(Clone, Debug, PartialEq)]
@@ -19,7 +19,7 @@ impl StepText {
     }
 
     /// Returns the map on the piece with these modes of the switches, continued beyond its boundaries.
-    pub(crate) fn map_on(&self, modes: &[i64], h: f64, at: &[f64], target: f64) -> StepMap {
+    pub fn map_on(&self, modes: &[i64], h: f64, at: &[f64], target: f64) -> StepMap {
         let inputs = self.carried.iter().map(|carried| carried.input).chain([TARGET]);
         let mut slots: Vec<Jet> = vec![[0.0; 3]; self.tape.slots];
         let mut values = Vec::new();
@@ -42,7 +42,7 @@ impl StepText {
 
 impl StepText {
     /// Returns the modes of the switches in a step of `h` seconds from these carried numbers.
-    pub(crate) fn modes(&self, h: f64, at: &[f64], target: f64) -> Vec<i64> {
+    pub fn modes(&self, h: f64, at: &[f64], target: f64) -> Vec<i64> {
         let mut slots = vec![0.0; self.tape.slots];
         (slots[H], slots[TARGET]) = (h, target);
         for (carried, value) in self.carried.iter().zip(at) {
@@ -56,7 +56,7 @@ impl StepText {
     }
 
     /// Returns the source of each switch of the lines, with its kind.
-    pub(crate) fn switches(&self) -> impl Iterator<Item = (SwitchKind, &str)> {
+    pub fn switches(&self) -> impl Iterator<Item = (SwitchKind, &str)> {
         self.tape
             .switch_origins()
             .map(|(kind, span)| (kind, self.source.get(span.clone()).unwrap_or_default().trim()))

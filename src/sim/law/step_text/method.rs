@@ -6,8 +6,8 @@
 use std::ops::Range;
 
 use super::{H, Line, StepRegisters, StepText, TARGET, V, X};
-use crate::sim::curve::Curve;
-use crate::sim::law::op::Op;
+use crate::curve::Curve;
+use crate::law::op::Op;
 
 mod compile;
 

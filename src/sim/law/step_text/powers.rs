@@ -6,19 +6,19 @@ const SAME: f64 = 1e-7;
 
 /// Powers of a map of two numbers whose eigenvalues are a complex pair, or real and positive.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Powers {
+pub struct Powers {
     /// The logarithm of the square root of the determinant, by which a step scales.
-    pub(crate) log_scale: f64,
+    pub log_scale: f64,
     /// The eigenvalues are exp(log_scale ± apart), or exp(log_scale ± i apart) if the motion swings.
-    pub(crate) apart: f64,
+    pub apart: f64,
     /// Whether the eigenvalues are a complex pair.
-    pub(crate) swings: bool,
+    pub swings: bool,
 }
 
 impl Powers {
     /// Returns the powers of a map with this trace and determinant; `None` if the map loses a part of the motion in one
     /// step, or changes its sign.
-    pub(crate) fn of(trace: f64, determinant: f64) -> Option<Self> {
+    pub fn of(trace: f64, determinant: f64) -> Option<Self> {
         let half = trace / 2.0;
         let square = half * half - determinant;
         if determinant <= 0.0 || square >= 0.0 && half <= 0.0 {
@@ -31,7 +31,7 @@ impl Powers {
     }
 
     /// Returns the numbers e and o with which the power of the map M is e + o (M - ½ trace M) / √(determinant).
-    pub(crate) fn at(&self, steps: f64) -> [f64; 2] {
+    pub fn at(&self, steps: f64) -> [f64; 2] {
         let &Self { log_scale, apart, swings } = self;
         let of = |log: f64| libm::exp(steps * log);
         match apart {

@@ -10,12 +10,12 @@ use super::method::{Array, Function as OwnFunction, Machine, Taken};
 use super::paths::{SMOOTH_DAMP, damped_velocity};
 use super::statements::Statement;
 use super::{BUILT_IN, Carried, H, Line, OTHER_NAMES, STEP_NAMES, StepText, TARGET, V, X};
-use crate::sim::law::expression::{Expression, Node, Scope, parse, parse_condition};
-use crate::sim::law::fault::{ExpressionFault, Parsed, Part, Remedy, fault, quoted};
-use crate::sim::law::function::Function;
-use crate::sim::law::op::{OPERATOR_WORDS, Op};
-use crate::sim::law::tape::{MAX_OPERATIONS, MAX_SWITCHES, Tape};
-use crate::sim::law::token::is_name_part;
+use crate::law::expression::{Expression, Node, Scope, parse, parse_condition};
+use crate::law::fault::{ExpressionFault, Parsed, Part, Remedy, fault, quoted};
+use crate::law::function::Function;
+use crate::law::op::{OPERATOR_WORDS, Op};
+use crate::law::tape::{MAX_OPERATIONS, MAX_SWITCHES, Tape};
+use crate::law::token::is_name_part;
 
 mod assignment;
 mod frames;

@@ -10,7 +10,7 @@ use super::plain::plain;
 use super::reader::{Reader, SPIN_NAMES};
 use super::statements::statements;
 use super::{H, StepRegisters, StepText};
-use crate::sim::law::fault::ExpressionFault;
+use crate::law::fault::ExpressionFault;
 
 impl StepText {
     /// Parses the lines of a step of a free spin.
@@ -25,7 +25,7 @@ impl StepText {
     }
 
     /// Whether the lines are those of a step of a free spin.
-    pub(crate) fn is_spin(&self) -> bool {
+    pub fn is_spin(&self) -> bool {
         self.names.first().is_some_and(|name| name == SPIN_NAMES[0])
     }
 

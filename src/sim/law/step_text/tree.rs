@@ -5,9 +5,9 @@ use std::ops::Range;
 use super::method::{Function, Taken};
 use super::plain::number_length;
 use super::{Declares, H, Line, StepText, TARGET, V};
-use crate::sim::law::expression::{Expression, Node};
-use crate::sim::law::function::{FUNCTIONS, Meaning, STEP_FUNCTIONS};
-use crate::sim::law::op::{INFIXES, Infix, Level, Op};
+use crate::law::expression::{Expression, Node};
+use crate::law::function::{FUNCTIONS, Meaning, STEP_FUNCTIONS};
+use crate::law::op::{INFIXES, Infix, Level, Op};
 
 /// The maximum number of operations of an expression in print, in which a shared part is written out at each use.
 const MAX_PRINTED: usize = 1024;
@@ -37,78 +37,92 @@ impl<'a> MethodInput<'a> {
 
 /// The lines of a step, or of one of its functions.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct StepBody<'t> {
+pub struct StepBody<'t> {
     pub(super) text: &'t StepText,
     pub(super) function: Option<&'t Function>,
 }
 
 /// An operation of an expression. Operands are indices of nodes before it.
-pub(crate) enum Operation<'t> {
+pub enum Operation<'t> {
     /// A number, with its texts in double and single precision if it is a literal.
     Number {
+        /// The number.
         value: f64,
+        /// Its texts.
         written: Option<[&'t str; 2]>,
     },
     /// The value of a name.
     Name(usize),
-    /// An operator between two operands. `breaks` is whether a line begins with it.
+    /// An operator between two operands.
     Infix {
+        /// Sign of the operator.
         sign: &'static str,
+        /// How tightly it binds.
         level: Level,
+        /// The operands.
         operands: [usize; 2],
+        /// Whether a line begins with it.
         breaks: bool,
     },
+    /// The opposite number.
     Negate(usize),
+    /// The opposite condition.
     Not(usize),
     /// A call of a function of the language.
     Call {
+        /// Name of the function.
         function: &'static str,
+        /// Its arguments.
         arguments: &'t [usize],
     },
     /// The number of an array at an index.
     Element {
+        /// Name of the array.
         array: &'t str,
+        /// The place in it.
         index: usize,
     },
     /// A call of the acceleration at a position and a velocity.
     Acceleration([usize; 2]),
     /// A call of a function of the lines. `None` hands the acceleration on.
     Own {
+        /// Name of the function.
         function: &'t str,
+        /// Its arguments.
         arguments: Vec<Option<usize>>,
     },
 }
 
 impl StepText {
     /// Returns the lines of the step.
-    pub(crate) fn body(&self) -> StepBody<'_> {
+    pub fn body(&self) -> StepBody<'_> {
         StepBody { text: self, function: None }
     }
 
     /// Returns the functions of the lines.
-    pub(crate) fn functions(&self) -> impl Iterator<Item = StepBody<'_>> {
+    pub fn functions(&self) -> impl Iterator<Item = StepBody<'_>> {
         let body = |function| StepBody { text: self, function: Some(function) };
         self.functions.iter().map(body)
     }
 
     /// Returns the remarks above the inputs.
-    pub(crate) fn notes(&self) -> &[String] {
+    pub fn notes(&self) -> &[String] {
         &self.notes
     }
 
     /// Returns the words of the text on a claim of its card, which are a line such as `order: 2 on a spring`.
-    pub(crate) fn claim<'t>(&'t self, claim: &str) -> Option<&'t str> {
+    pub fn claim<'t>(&'t self, claim: &str) -> Option<&'t str> {
         let mut lines = self.source.lines();
         lines.find_map(|line| Some(line.strip_prefix(claim)?.strip_prefix(": ")?.trim()))
     }
 
     /// Whether a line has the length of a step.
-    pub(crate) fn reads_step(&self) -> bool {
+    pub fn reads_step(&self) -> bool {
         self.lines.iter().any(|line| line.mentions(H))
     }
 
     /// Returns the inputs of the step besides `x`, `v` and `h`.
-    pub(crate) fn method_inputs(&self) -> Vec<MethodInput<'_>> {
+    pub fn method_inputs(&self) -> Vec<MethodInput<'_>> {
         let named = |taken: &'_ Taken| -> MethodInput<'_> {
             let line = self.source[taken.span.end..].lines().next().unwrap_or_default();
             let about = line.split_once(": ").map(|(_, about)| about.trim());
@@ -137,7 +151,7 @@ impl StepText {
     }
 
     /// Returns the reason why no other language can have the lines; `None` if they can.
-    pub(crate) fn unwritable(&self) -> Option<&'static str> {
+    pub fn unwritable(&self) -> Option<&'static str> {
         if self.is_loop()
             && self.lines.iter().any(|line| matches!(line, Line::Stop { fails: true }))
         {
@@ -168,7 +182,7 @@ const THE_TARGET: &str = "the target of x";
 
 impl Line {
     /// Returns the expression of the line, if it has one.
-    pub(crate) fn value(&self) -> Option<&Expression> {
+    pub fn value(&self) -> Option<&Expression> {
         match self {
             Line::Assign { value, .. }
             | Line::If(value)
@@ -180,7 +194,7 @@ impl Line {
     }
 
     /// Returns all expressions of the line, with that of an index.
-    pub(crate) fn values(&self) -> impl Iterator<Item = &Expression> {
+    pub fn values(&self) -> impl Iterator<Item = &Expression> {
         let index = match self {
             Line::Store { index, .. } => Some(index),
             _ => None,
@@ -189,7 +203,7 @@ impl Line {
     }
 
     /// The number of blocks that the line opens, less those that it closes.
-    pub(crate) fn depth(&self) -> i32 {
+    pub fn depth(&self) -> i32 {
         match self {
             Line::If(_) | Line::While(_) => 1,
             Line::End => -1,
@@ -198,7 +212,7 @@ impl Line {
     }
 
     /// Whether the line assigns or reads a name.
-    pub(crate) fn mentions(&self, name: usize) -> bool {
+    pub fn mentions(&self, name: usize) -> bool {
         let assigns = matches!(self, Line::Assign { name: assigned, .. } if *assigned == name);
         assigns || self.values().any(|value| value.reads(name))
     }
@@ -206,12 +220,12 @@ impl Line {
 
 impl Expression {
     /// Whether the expression reads a name.
-    pub(crate) fn reads(&self, name: usize) -> bool {
+    pub fn reads(&self, name: usize) -> bool {
         self.nodes.iter().any(|node| node.op == Op::Input && node.index == name)
     }
 
     /// Whether the expression is made of numbers and names for which `is_constant` holds.
-    pub(crate) fn is_constant(&self, is_constant: impl Fn(usize) -> bool) -> bool {
+    pub fn is_constant(&self, is_constant: impl Fn(usize) -> bool) -> bool {
         self.nodes.iter().all(|node| match node.op {
             Op::Input => is_constant(node.index),
             Op::Number | Op::Negate | Op::Add | Op::Subtract | Op::Multiply | Op::Divide => true,
@@ -227,24 +241,24 @@ impl Expression {
     }
 
     /// Returns the number of operations.
-    pub(crate) fn size(&self) -> usize {
+    pub fn size(&self) -> usize {
         self.nodes.len()
     }
 }
 
 impl<'t> StepBody<'t> {
     /// Returns the name of the function; `None` for the step.
-    pub(crate) fn function(self) -> Option<&'t str> {
+    pub fn function(self) -> Option<&'t str> {
         self.function.map(|function| &*function.name)
     }
 
     /// Returns the remarks above a function.
-    pub(crate) fn remarks(self) -> &'t [String] {
+    pub fn remarks(self) -> &'t [String] {
         self.function.map_or(&[], |function| &function.remarks)
     }
 
     /// Returns the inputs besides `x`, `v` and `h`, which for a function are all of its inputs.
-    pub(crate) fn inputs(self) -> Vec<MethodInput<'t>> {
+    pub fn inputs(self) -> Vec<MethodInput<'t>> {
         let Some(function) = self.function else { return self.text.method_inputs() };
         let mut names = function.names.iter();
         let input = |is_acceleration: &bool| match is_acceleration {
@@ -254,16 +268,18 @@ impl<'t> StepBody<'t> {
         function.inputs.iter().map(input).collect()
     }
 
-    pub(crate) fn lines(self) -> &'t [Line] {
+    /// Returns the lines.
+    pub fn lines(self) -> &'t [Line] {
         self.function.map_or(&self.text.lines, |function| &function.lines)
     }
 
-    pub(crate) fn names(self) -> &'t [String] {
+    /// Returns the names, to which lines and expressions refer by their indices.
+    pub fn names(self) -> &'t [String] {
         self.function.map_or(&self.text.names, |function| &function.names)
     }
 
     /// Whether a name has a value before the first line.
-    pub(crate) fn is_given(self, name: usize) -> bool {
+    pub fn is_given(self, name: usize) -> bool {
         match self.function {
             Some(function) => name < function.inputs.iter().filter(|is| !**is).count(),
             None => {
@@ -275,13 +291,13 @@ impl<'t> StepBody<'t> {
     }
 
     /// Whether a name is a number that the memory carries.
-    pub(crate) fn is_field(self, name: usize) -> bool {
+    pub fn is_field(self, name: usize) -> bool {
         let carried = || self.text.carried.iter().any(|carried| carried.input == name);
         self.function.is_none() && name > V && carried()
     }
 
     /// Whether a name is a whole number, which lines declared as such count.
-    pub(crate) fn is_whole(self, name: usize) -> bool {
+    pub fn is_whole(self, name: usize) -> bool {
         // The whole times of a loop are numbers like all others.
         let has_inputs = self.function.is_none() && !self.is_loop();
         let inputs = self.text.inputs.iter().filter(|_| has_inputs);
@@ -316,7 +332,7 @@ impl<'t> StepBody<'t> {
 
     /// Returns for each operation of an expression whether its value is a whole number. If `is_whole`, the value of
     /// the expression is one.
-    pub(crate) fn whole(self, expression: &Expression, is_whole: bool) -> Vec<bool> {
+    pub fn whole(self, expression: &Expression, is_whole: bool) -> Vec<bool> {
         let nodes = &expression.nodes;
         // Whether each node can be whole, and whether it has a counter.
         let mut can: Vec<[bool; 2]> = Vec::with_capacity(nodes.len());
@@ -354,7 +370,7 @@ impl<'t> StepBody<'t> {
     }
 
     /// Returns one operation of an expression.
-    pub(crate) fn operation(self, expression: &'t Expression, index: usize) -> Operation<'t> {
+    pub fn operation(self, expression: &'t Expression, index: usize) -> Operation<'t> {
         let node = &expression.nodes[index];
         let operands = node.arguments();
         let [a, b] = [0, 1].map(|n| operands.get(n).copied().unwrap_or_default());
@@ -417,14 +433,14 @@ impl<'t> StepBody<'t> {
     }
 
     /// Whether an operation stands in brackets of its own in the lines.
-    pub(crate) fn is_bracketed(self, expression: &Expression, index: usize) -> bool {
+    pub fn is_bracketed(self, expression: &Expression, index: usize) -> bool {
         let text = self.source().get(expression.spans[index].clone()).unwrap_or_default();
         bracketed(text).is_some()
     }
 }
 
 /// Returns an expression without the brackets around all of it; `None` if it has none.
-pub(crate) fn bracketed(text: &str) -> Option<&str> {
+pub fn bracketed(text: &str) -> Option<&str> {
     let mut depth = 0;
     let closes = text.bytes().position(|byte| {
         depth += i32::from(byte == b'(') - i32::from(byte == b')');

@@ -10,8 +10,8 @@ use super::numbers::{
     to_origami, wish,
 };
 use super::{HALVINGS, KICK_S, Key, SIXTEEN_S, Steps, Switch, UiSpring};
+use crate::port::{REACHED, Wish};
 use crate::sim::numerics::bisect;
-use crate::tools::port::{REACHED, Wish};
 
 const fn key(name: &'static str, usual: f64) -> Key {
     ranged(name, usual, [f64::MIN_POSITIVE, f64::MAX], "above 0")

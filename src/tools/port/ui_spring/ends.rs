@@ -2,8 +2,8 @@
 
 use super::{FIRST_STEPS, HALVINGS, SIXTEEN_S, Steps, UiSpring, Values, left_at, pace, part_left};
 use super::{STEP_S, StepMap};
+use crate::port::Wish;
 use crate::sim::numerics::bisect;
-use crate::tools::port::Wish;
 use nalgebra::Vector2;
 
 /// The rule by which a library ends a motion over a way of 1.

@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use super::ends::{envelope_s, settled_angle};
 use super::{Departure, SIXTEEN_S, Values, part_left};
-use crate::tools::port::Wish;
+use crate::port::Wish;
 
 /// Smallest damping ratio that Motion derives from a bounce. Its reciprocal is the largest one.
 pub(super) const MOTION_LEAST: f64 = 0.05;

@@ -2,8 +2,8 @@
 
 use super::{File, Printer, filled};
 use crate::sim::law::{Expression, Level, Line, LoopName, StepBody, StepText};
-use crate::tools::source_code::dialect::{Language, Precision};
-use crate::tools::source_code::expression::Names;
+use crate::source_code::dialect::{Language, Precision};
+use crate::source_code::expression::Names;
 
 /// The prefix of the functions of a printed loop.
 const PREFIX: &str = "loop";
@@ -20,7 +20,7 @@ struct Kept {
 }
 
 /// Prints a game loop below its header.
-pub(in crate::tools::source_code) fn print_loop(
+pub(in crate::source_code) fn print_loop(
     text: &StepText,
     language: Language,
     header: &[String],
@@ -35,7 +35,7 @@ pub(in crate::tools::source_code) fn print_loop(
 }
 
 /// Returns the names of the numbers that a loop is made for.
-pub(in crate::tools::source_code) fn rates(body: StepBody<'_>) -> Vec<&'static str> {
+pub(in crate::source_code) fn rates(body: StepBody<'_>) -> Vec<&'static str> {
     let rates = [
         (LoopName::Tick, &["tick_hz"][..]),
         (LoopName::Refresh, &["refreshes", "seconds"]),
@@ -56,7 +56,7 @@ pub(super) fn returns_shown(body: StepBody<'_>) -> bool {
 }
 
 /// Whether a line sets the moment to show.
-pub(in crate::tools::source_code) fn shows(body: StepBody<'_>) -> bool {
+pub(in crate::source_code) fn shows(body: StepBody<'_>) -> bool {
     (0..body.lines().len()).any(|n| body.shows(n))
 }
 

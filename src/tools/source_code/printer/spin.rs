@@ -2,14 +2,14 @@
 
 use super::{File, Printer};
 use crate::sim::law::{Line, StepBody};
-use crate::tools::source_code::dialect::Language;
+use crate::source_code::dialect::Language;
 
 const OMEGA: [&str; 3] = ["wx", "wy", "wz"];
 const ATTITUDE: [&str; 4] = ["qw", "qx", "qy", "qz"];
 const MOMENTS: [&str; 3] = ["i1", "i2", "i3"];
 
 /// Whether the step depends on the moments.
-pub(in crate::tools::source_code) fn takes_moments(body: StepBody<'_>) -> bool {
+pub(in crate::source_code) fn takes_moments(body: StepBody<'_>) -> bool {
     let name = body.names().iter().position(|name| name == MOMENTS[0]);
     name.is_some_and(|name| body.lines().iter().any(|line| line.mentions(name)))
 }

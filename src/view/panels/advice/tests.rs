@@ -2,10 +2,10 @@ use egui::{FontFamily, Pos2, Rect};
 
 use super::*;
 use crate::measure::AnalysisWorker;
+use crate::panels;
 use crate::scene::Scene;
 use crate::studio::{Instrument, StageCommand, accept_findings};
-use crate::view::panels;
-use crate::view::tests::testing::{ShownText, TestWindow};
+use crate::tests::testing::{ShownText, TestWindow};
 
 /// Shows frames of this size. Returns the stage, and every text that is fully visible, with its place.
 fn shown(studio: &Studio, size: [f32; 2]) -> (Rect, Vec<(Pos2, String)>) {

@@ -3,13 +3,13 @@
 use egui::{CollapsingHeader, ComboBox, RichText, Ui, vec2};
 
 use super::{LINE, line};
+use crate::panels::number_field::NumberField;
 use crate::scene::check_entered;
 use crate::stage::Range;
 use crate::stage::number::significant;
 use crate::studio::{Command, RunCommand, Studio};
+use crate::theme::palette;
 use crate::tools::port::Setup;
-use crate::view::panels::number_field::NumberField;
-use crate::view::theme::palette;
 
 /// Shows the numbers of a spring as the selected engine has them. Shows nothing for any other body.
 pub(super) fn show(ui: &mut Ui, studio: &Studio, body: usize, commands: &mut Vec<Command>) {

@@ -4,15 +4,15 @@
 use egui::{ComboBox, RichText, Ui, vec2};
 
 use super::{LINE, RESTORE, hold_during_drag, line, restore_button};
+use crate::panels::number_field::NumberField;
+use crate::panels::rate_scale;
 use crate::run::race::{Entrant, Mode};
 use crate::scene::{
     Action, LaneSpec, MAX_SECONDS, MAX_SUBSTEPS, MIN_SECONDS, TOLERANCES, check_entered,
 };
 use crate::stage::Range;
 use crate::studio::{Command, RunCommand, StageCommand, Studio};
-use crate::view::panels::number_field::NumberField;
-use crate::view::panels::rate_scale;
-use crate::view::theme::palette;
+use crate::theme::palette;
 
 /// Widths of the fields of a lane, in points.
 const SUBSTEPS: f32 = 44.0;

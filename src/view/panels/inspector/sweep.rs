@@ -4,7 +4,7 @@ use egui::{Button, Id, RichText, Ui};
 
 use super::rows::{SliderRange, Spacing, Values};
 use super::{LINE, named_button};
-use crate::view::theme::palette;
+use crate::theme::palette;
 
 /// The width of the button, in points.
 pub(super) const BUTTON: f32 = 18.0;
@@ -63,7 +63,7 @@ impl Sweep {
 }
 
 /// Whether a sweep is active. A whole sweep counts as one change, like a drag.
-pub(in crate::view) fn is_sweep_active(ui: &Ui) -> bool {
+pub(crate) fn is_sweep_active(ui: &Ui) -> bool {
     let sweep = ui.data(|data| data.get_temp::<Sweep>(Id::unique(ID)));
     sweep.is_some_and(|sweep| ui.input(|input| input.time) - sweep.shown_s < FRESH_S)
 }

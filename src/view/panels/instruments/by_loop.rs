@@ -8,11 +8,11 @@ use super::error::capitalised;
 use super::motion::HEALTHY;
 use super::phase::SAMPLES;
 use super::plot_set::{ExactLine, PlotAxis, PlotModel, PlotSet, time_in_view};
+use crate::chart::{AxisScale, Bounds, Dots};
 use crate::loops::loop_lab::{FRAME_METRICS, LoopFrame, LoopLab, LoopLane};
 use crate::run::past::Energies;
 use crate::run::{METRICS, Metric, Scale};
 use crate::studio::{Instrument, Studio};
-use crate::view::chart::{AxisScale, Bounds, Dots};
 
 /// Length of the time in view, in seconds. It is short enough to see every frame.
 const FRAMES_S: f64 = 1.0;
@@ -198,9 +198,9 @@ impl Plots<'_> {
 mod tests {
     use super::*;
     use crate::loops::loop_lab::LoopCommand;
+    use crate::panels::instruments::{csv, svg};
     use crate::scene::Scene;
     use crate::studio::{Command, StageCommand, run_loops};
-    use crate::view::panels::instruments::{csv, svg};
 
     fn lab_at(scene: &str, now_ns: i64) -> Studio {
         let mut studio = Studio::new(Scene::built_in(scene).unwrap());

@@ -9,10 +9,10 @@ use super::super::series_styles::SeriesStyles;
 use super::hover;
 use super::layout::{Cell, cells};
 use super::plot_set::PlotSet;
+use crate::chart::{self, ABOVE, NAME, NUMBER, PlotArea, Primitive, Text};
 use crate::studio::{Command, DriverRequest, RunCommand, StageCommand, Studio, ViewCommand};
-use crate::view::chart::{self, ABOVE, NAME, NUMBER, PlotArea, Primitive, Text};
-use crate::view::theme::{PanelPalette, palette, strong_font};
-use crate::view::touch::wheel_or_pinch;
+use crate::theme::{PanelPalette, palette, strong_font};
+use crate::touch::wheel_or_pinch;
 
 /// Minimum width for the numbers of a vertical axis, in points.
 const LEFT: f32 = 40.0;

@@ -15,20 +15,20 @@ use super::super::tracks::Track;
 use super::error::capitalised;
 use super::plot_set::{ExactLine, PlotAxis, PlotModel, PlotSet, over_time};
 use super::{body_choice, chart, choice};
+use crate::chart::{self as charts, AxisScale, LineStyle, PlotArea, Primitive, ScreenCurve};
 use crate::look::density_picture;
 use crate::look::palette::{Rgba, Theme};
 use crate::measure::cloud::{
     CloudChoice, CloudPicture, CloudRequest, CloudShape, Density, LaneCloud, MAX_LINE_PART, POINTS,
     hidden_in_words,
 };
+use crate::panels::breakpoints;
 use crate::run::race::Mode;
 use crate::stage::number::{grouped, significant};
 use crate::studio::{
     Command, RunCommand, StageCommand, Studio, cloud_refusal, cloud_request, shown_cloud,
 };
-use crate::view::chart::{self as charts, AxisScale, LineStyle, PlotArea, Primitive, ScreenCurve};
-use crate::view::panels::breakpoints;
-use crate::view::theme::{PanelPalette, palette, strong_font};
+use crate::theme::{PanelPalette, palette, strong_font};
 
 /// Minimum width of the numbers at the left, gap beside them, height of the numbers below, and height of the names of
 /// the axes, in points.

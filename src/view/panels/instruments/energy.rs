@@ -6,10 +6,10 @@ use super::super::tracks::Track;
 use super::error;
 use super::motion::HEALTHY;
 use super::plot_set::{ExactLine, PlotAxis, PlotModel, PlotSet, over_time, time_in_view};
+use crate::chart::AxisScale;
 use crate::run::Metric;
 use crate::run::past::Energies;
 use crate::studio::Studio;
-use crate::view::chart::AxisScale;
 
 /// An energy in the plot: its name, its dash, its opacity, and its formula.
 type Part = (&'static str, [f32; 2], f32, fn(Energies) -> f64);

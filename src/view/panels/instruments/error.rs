@@ -4,9 +4,9 @@ use super::super::ranges;
 use super::super::series_styles::SeriesStyles;
 use super::super::tracks::Track;
 use super::plot_set::{BeforeLine, PlotAxis, PlotModel, PlotSet, over_time};
+use crate::chart::{AxisScale, Dots};
 use crate::run::{METRICS, Metric, Scale, Unit};
 use crate::studio::Studio;
-use crate::view::chart::{AxisScale, Dots};
 
 /// Message if every error is zero, because zero has no logarithm.
 pub(super) const NO_ERROR: &str =

@@ -7,10 +7,10 @@ use super::super::tracks::Detail;
 use super::layout::cells;
 use super::plot_set::{PlotAxis, PlotSet};
 use super::{chart, plot_set_of};
+use crate::chart::{ABOVE, NAME, Primitive, Text, legend, svg};
 use crate::run::csv_row;
 use crate::studio::{Instrument, Studio};
-use crate::view::chart::{ABOVE, NAME, Primitive, Text, legend, svg};
-use crate::view::theme::{PanelPalette, palette_of};
+use crate::theme::{PanelPalette, palette_of};
 
 /// Size of a drawing in its own pixels, and size of the margins around its plots.
 const SIZE: [f32; 2] = [960.0, 600.0];
@@ -19,7 +19,7 @@ const HEAD: f32 = 62.0;
 const LEFT: f32 = 64.0;
 /// Returns the values of the selected instrument as comma-separated text, with a line for each sample of each curve, or
 /// `None` if the instrument has no plots.
-pub(in crate::view) fn csv(studio: &Studio) -> Option<Vec<String>> {
+pub(crate) fn csv(studio: &Studio) -> Option<Vec<String>> {
     if studio.display().instrument == Instrument::Loop {
         return Some(loops::csv(studio));
     }
@@ -50,7 +50,7 @@ pub(in crate::view) fn csv(studio: &Studio) -> Option<Vec<String>> {
 }
 
 /// Returns the plots of the selected instrument as an SVG file, or `None` if the instrument has no plots.
-pub(in crate::view) fn svg(studio: &Studio) -> Option<String> {
+pub(crate) fn svg(studio: &Studio) -> Option<String> {
     let palette = palette_of(studio.display().theme);
     let all = Rect::from_min_size(Pos2::ZERO, SIZE.into());
     let room = Rect::from_min_max(pos2(MARGIN, HEAD), all.max - vec2(MARGIN, MARGIN / 2.0));

@@ -6,9 +6,9 @@ use egui::{Align2, FontId, Pos2, Rect, Shape, Stroke, Ui, pos2, vec2};
 use super::super::series_styles::SeriesStyles;
 use super::layout::Cell;
 use super::plot_set::{PlotModel, Readout};
+use crate::chart::{NAME, PlotArea};
 use crate::studio::Studio;
-use crate::view::chart::{NAME, PlotArea};
-use crate::view::theme::{palette, strong_font};
+use crate::theme::{palette, strong_font};
 
 /// The width of the crosshair and the radius of the dots on the curves, in points.
 const CROSSHAIR: f32 = 1.4;

@@ -5,8 +5,8 @@ use std::collections::BTreeMap;
 use egui::{Rect, pos2};
 
 use super::plot_set::{PlotModel, PlotSet};
-use crate::view::chart::{ABOVE, AxisMark, NAMES, NUMBERS, PlotArea};
-use crate::view::panels::breakpoints;
+use crate::chart::{ABOVE, AxisMark, NAMES, NUMBERS, PlotArea};
+use crate::panels::breakpoints;
 
 /// Minimum distance between marks, horizontally and vertically, in points. If fewer than three marks would fit, they
 /// move closer.

@@ -7,13 +7,13 @@ use super::error::capitalised;
 use super::plot_set::{
     BeforeLine, EXACT, ExactLine, PlotAxis, PlotModel, PlotSet, origin, over_time, time_in_view,
 };
+use crate::chart::{Curve, Dots, LineStyle};
 use crate::look::{Framing, Look};
 use crate::measure::FutureCurve;
 use crate::run::past::Quantity;
 use crate::stage::Coordinate;
 use crate::studio::{Studio, futures, shows_futures};
-use crate::view::chart::{Curve, Dots, LineStyle};
-use crate::view::theme::palette_of;
+use crate::theme::palette_of;
 
 /// A lane does not extend an axis where it is further out than the truth and the selected lane by more than this
 /// factor.

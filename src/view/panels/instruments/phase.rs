@@ -5,8 +5,8 @@ use super::super::series_styles::SeriesStyles;
 use super::super::tracks::Track;
 use super::motion::{HEALTHY, extend_by_held_body, name_of_plotted};
 use super::plot_set::{ExactLine, PlotAxis, PlotModel, PlotSet, origin};
+use crate::chart::Dots;
 use crate::studio::Studio;
-use crate::view::chart::Dots;
 
 /// Number of samples in a phase portrait. They make only a few turns, so that the turns can be distinguished.
 pub(super) const SAMPLES: usize = 360;

@@ -8,13 +8,13 @@ use egui::Color32;
 
 use super::super::series_styles::{SeriesStyle, SeriesStyles};
 use super::super::tracks::{self, Track, TrackStyle};
+use crate::chart::{Arrow, AxisScale, Bounds, Curve, Dots, Drawing, LineStyle, SwitchMark};
 use crate::run::Unit;
 use crate::run::past::{Quantity, Sample, TruthCurve, TruthSample};
 use crate::stage::Coordinate;
 use crate::stage::number::significant;
 use crate::studio::{Studio, shows_futures};
-use crate::view::chart::{Arrow, AxisScale, Bounds, Curve, Dots, Drawing, LineStyle, SwitchMark};
-use crate::view::theme::palette_of;
+use crate::theme::palette_of;
 
 /// Width of the exact curve, in points. A lane that follows the truth is visible on both sides of this curve.
 pub(super) const EXACT: f32 = 1.3;

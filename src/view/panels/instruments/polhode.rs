@@ -5,11 +5,11 @@ use super::super::tracks::Track;
 use super::error::capitalised;
 use super::phase::SAMPLES;
 use super::plot_set::{ExactLine, PlotAxis, PlotModel, PlotSet};
+use crate::chart::{AxisScale, Curve, Dots, LineStyle};
 use crate::look::Polhode;
 use crate::run::{METRICS, Metric};
 use crate::studio::Studio;
-use crate::view::chart::{AxisScale, Curve, Dots, LineStyle};
-use crate::view::theme::palette_of;
+use crate::theme::palette_of;
 
 /// Width of the separatrix and of the rim, in points.
 const THIN: f32 = 1.0;

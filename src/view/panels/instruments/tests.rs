@@ -4,12 +4,12 @@ use rayon::prelude::*;
 use super::super::tracks::Detail;
 use super::error::{NO_ERROR, NOTHING_YET, capitalised};
 use super::*;
+use crate::chart::PlotArea;
 use crate::measure::cloud::{CloudChoice, CloudWorker};
+use crate::panels;
 use crate::scene::{Action, SCENES, Scene};
 use crate::studio::{BOOK_FIGURES, RunCommand, StageCommand, ViewCommand, complete_clouds};
-use crate::view::chart::PlotArea;
-use crate::view::panels;
-use crate::view::tests::testing::{TestWindow, button};
+use crate::tests::testing::{TestWindow, button};
 
 mod shown;
 

@@ -1,11 +1,11 @@
 //! The columns of the table of lanes.
 
 use super::row::{self, Row};
+use crate::panels::table::{Column, SortKey, TableRow, show_words};
 use crate::run::race::Mode;
 use crate::run::{METRICS, Metric};
 use crate::stage::number::{round, significant};
 use crate::studio::Studio;
-use crate::view::panels::table::{Column, SortKey, TableRow, show_words};
 
 /// Minimum width of the verdict, and its minimum width beside extra columns, in points. Extra columns repeat the stage
 /// or an instrument, and have priorities from `EXTRAS` on.
@@ -200,11 +200,11 @@ fn cost<'a>() -> Column<Row<'a>> {
 
 #[cfg(test)]
 mod tests {
+    use crate::panels::lanes;
     use crate::scene::Scene;
     use crate::studio::guide::STOPS;
     use crate::studio::{StageCommand, Studio, ViewCommand};
-    use crate::view::panels::lanes;
-    use crate::view::tests::testing::TestWindow;
+    use crate::tests::testing::TestWindow;
 
     #[test]
     fn a_missing_truth_is_reported_once_on_the_stage_and_in_no_cell() {

@@ -2,13 +2,13 @@
 
 use super::verdict;
 use crate::measure::{ChaseFinding, Verdict};
+use crate::panels::verdict::VerdictText;
 use crate::run::past::Peaks;
 use crate::run::race::{Entrant, LaneBody, Mode};
 use crate::run::{METRICS, MenuIndex, Metric, energy_gained_j, energy_gained_percent, energy_j};
 use crate::scene::LaneSpec;
 use crate::stage::number::significant;
 use crate::studio::{Studio, shown_state};
-use crate::view::panels::verdict::VerdictText;
 
 /// A value smaller than this share of its scale is only rounding.
 const ROUNDING: f64 = 1e-12;

@@ -1,10 +1,10 @@
 //! The table of lanes: its rows, their order, and their texts.
 
 use super::*;
+use crate::panels::table::{Order, SortKey};
 use crate::scene::Scene;
 use crate::studio::{RunCommand, StageCommand};
-use crate::view::panels::table::{Order, SortKey};
-use crate::view::tests::testing::TestWindow;
+use crate::tests::testing::TestWindow;
 
 fn race() -> Studio {
     judged_race(Scene::built_in("harbour").unwrap())

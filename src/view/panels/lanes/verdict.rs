@@ -1,10 +1,10 @@
 //! Verdicts in the rows of the table of lanes.
 
 use crate::measure::Outcome;
+use crate::panels::verdict::VerdictText;
 use crate::run::MenuIndex;
 use crate::run::race::Entrant;
 use crate::studio::Studio;
-use crate::view::panels::verdict::VerdictText;
 
 /// Returns the verdict on the method at this index of the list, and on its lane if there is one. The verdict names the
 /// judged body, unless the row is about that body alone or `named_above` is that body.

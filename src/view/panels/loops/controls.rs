@@ -5,10 +5,10 @@ use egui::{ComboBox, RichText, TextWrapMode, Ui};
 
 use crate::loops::loop_lab::{LoopCommand, LoopLab, SLOWNESS};
 use crate::loops::{ENGINES, FrameTrace, TRACES};
+use crate::panels::breakpoints;
 use crate::stage::number::round;
 use crate::studio::Command;
-use crate::view::panels::breakpoints;
-use crate::view::theme::palette;
+use crate::theme::palette;
 
 /// Maximum number of characters of a trace's name in the closed menu.
 const MAX_CHARS: usize = 18;
@@ -16,7 +16,7 @@ const MAX_CHARS: usize = 18;
 const LONG_NAME: usize = 14;
 
 /// Whether the top bar has the menu of traces.
-pub(in crate::view::panels) fn has_trace_menu_above(ui: &Ui) -> bool {
+pub(in crate::panels) fn has_trace_menu_above(ui: &Ui) -> bool {
     ui.ctx().content_rect().width() >= breakpoints::MENU_OF_TRACES
 }
 
@@ -31,11 +31,7 @@ fn speed(slowness: u32) -> String {
     }
 }
 
-pub(in crate::view::panels) fn speed_menu(
-    ui: &mut Ui,
-    loops: &LoopLab,
-    commands: &mut Vec<Command>,
-) {
+pub(in crate::panels) fn speed_menu(ui: &mut Ui, loops: &LoopLab, commands: &mut Vec<Command>) {
     let chosen = loops.slowness();
     let menu = ComboBox::from_id_salt("slowness").selected_text(speed(chosen)).width(54.0);
     let response = menu.height(400.0).show_ui(ui, |ui| {
@@ -66,11 +62,7 @@ fn about_trace(trace: &FrameTrace) -> String {
     about.to_owned() + &missing.map_or(String::new(), |missing| format!("; {missing}"))
 }
 
-pub(in crate::view::panels) fn trace_menu(
-    ui: &mut Ui,
-    loops: &LoopLab,
-    commands: &mut Vec<Command>,
-) {
+pub(in crate::panels) fn trace_menu(ui: &mut Ui, loops: &LoopLab, commands: &mut Vec<Command>) {
     let trace = &loops.traces()[loops.trace()];
     let chosen = trace.name();
     let menu = ComboBox::from_id_salt("trace").selected_text(short_name(chosen)).width(112.0);
@@ -90,11 +82,7 @@ pub(in crate::view::panels) fn trace_menu(
 }
 
 /// Shows the menu of engines, each with its version and what to beware of.
-pub(in crate::view::panels) fn engine_menu(
-    ui: &mut Ui,
-    loops: &LoopLab,
-    commands: &mut Vec<Command>,
-) {
+pub(in crate::panels) fn engine_menu(ui: &mut Ui, loops: &LoopLab, commands: &mut Vec<Command>) {
     let chosen = loops.engine().map_or("your engine", |card| card.id);
     let menu = ComboBox::from_id_salt("engine").selected_text(short_name(chosen)).width(112.0);
     let response = menu.height(480.0).show_ui(ui, |ui| {
@@ -112,7 +100,7 @@ pub(in crate::view::panels) fn engine_menu(
 }
 
 /// Formats the moment of display, in full or short enough for a narrow bar.
-pub(in crate::view::panels) fn moment(loops: &LoopLab, is_wide: bool) -> String {
+pub(in crate::panels) fn moment(loops: &LoopLab, is_wide: bool) -> String {
     let t_s = loops.now_ns() as f64 / 1e9;
     let frame = loops.lanes()[loops.selected()].frame_at(loops.now_ns()).unwrap_or_default();
     let is_long = loops.traces()[loops.trace()].name().chars().count() > LONG_NAME;
@@ -124,7 +112,7 @@ pub(in crate::view::panels) fn moment(loops: &LoopLab, is_wide: bool) -> String 
 }
 
 /// Shows the refresh rate of the simulated display.
-pub(in crate::view::panels) fn display(ui: &mut Ui, loops: &LoopLab) {
+pub(in crate::panels) fn display(ui: &mut Ui, loops: &LoopLab) {
     let hz = round(loops.traces()[loops.trace()].refresh().hz(), 4);
     let text = RichText::new(format!("{hz} Hz display, simulated")).color(palette(ui).dim);
     ui.label(text).on_hover_text("nothing here depends on the display of this computer");

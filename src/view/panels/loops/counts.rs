@@ -3,10 +3,10 @@
 use egui::{Align2, Color32, Rect, Ui, pos2, vec2};
 
 use super::ShownLane;
+use crate::chart::{self, AxisScale, PlotArea, Primitive, Text};
+use crate::panels::breakpoints;
 use crate::stage::number::round;
-use crate::view::chart::{self, AxisScale, PlotArea, Primitive, Text};
-use crate::view::panels::breakpoints;
-use crate::view::theme::{PanelPalette, palette};
+use crate::theme::{PanelPalette, palette};
 
 /// Names of the bins. The last bin includes all higher counts.
 const NAMES: [&str; 4] = ["0", "1", "2", "3+"];

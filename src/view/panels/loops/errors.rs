@@ -4,10 +4,10 @@ use egui::{Align2, Rect, Ui, vec2};
 
 use super::ShownLane;
 use super::counts::{BELOW, LEFT, NAME, TITLE};
+use crate::chart::{self, AxisScale, PlotArea, Primitive, Text};
 use crate::loops::loop_lab::LoopLab;
 use crate::stage::number::round;
-use crate::view::chart::{self, AxisScale, PlotArea, Primitive, Text};
-use crate::view::theme::{PanelPalette, palette};
+use crate::theme::{PanelPalette, palette};
 
 /// Number of frames that the chart shows.
 const FRAMES: usize = 24;

@@ -15,7 +15,7 @@ const MUCH_MORE: f64 = 2.0;
 
 /// Returns the parts of the hint, the most important first. A part is an observation or the next step, and has its keys
 /// between backticks.
-pub(in crate::view::panels) fn parts(loops: &LoopLab) -> Vec<String> {
+pub(in crate::panels) fn parts(loops: &LoopLab) -> Vec<String> {
     if let Some((none, mut reasons)) = loops.none_advised() {
         reasons[0].insert_str(0, "None is recommended: ");
         if none == NoLoop::MotionLost {

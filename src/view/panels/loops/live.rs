@@ -5,11 +5,11 @@ use egui::{Color32, Label, Rect, RichText, Sense, Ui, Vec2, vec2};
 use super::counts::{self, LEFT, Series};
 use super::errors::round_up;
 use super::table::metric_text;
+use crate::chart::{self, Arrow, AxisScale, Curve, Drawing, LineStyle, PlotArea, Primitive};
+use crate::panels::breakpoints;
 use crate::run::Unit;
 use crate::studio::{LiveFrame, Pace, Studio};
-use crate::view::chart::{self, Arrow, AxisScale, Curve, Drawing, LineStyle, PlotArea, Primitive};
-use crate::view::panels::breakpoints;
-use crate::view::theme::{PanelPalette, colour, palette, strong_font};
+use crate::theme::{PanelPalette, colour, palette, strong_font};
 
 pub(super) const TITLE: &str = "This window's own loop";
 /// The length of the plot in seconds.

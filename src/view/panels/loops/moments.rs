@@ -7,12 +7,10 @@ use egui::{Align2, Color32, Painter, Pos2, Rect, Response, Sense, Stroke, Ui, po
 
 use super::ShownLane;
 use super::counts::BELOW;
+use crate::chart::{self, AxisScale, LineStyle, NUMBER, PlotArea, Primitive, ScreenCurve, Text};
 use crate::loops::loop_lab::{LoopFrame, LoopLab, LoopLane};
 use crate::stage::number::round;
-use crate::view::chart::{
-    self, AxisScale, LineStyle, NUMBER, PlotArea, Primitive, ScreenCurve, Text,
-};
-use crate::view::theme::{PanelPalette, palette, strong_font};
+use crate::theme::{PanelPalette, palette, strong_font};
 
 /// Number of the display's refreshes that the plot shows.
 const FRAMES: f64 = 12.0;

@@ -4,10 +4,10 @@ use egui::{Color32, Rect, RichText, Sense, Shape, Stroke, Ui, vec2};
 
 use crate::loops::loop_lab::{LoopCommand, LoopLab, LoopLane};
 use crate::measure::Severity;
+use crate::panels::table::TableRow;
+use crate::panels::verdict::VerdictText;
 use crate::studio::Command;
-use crate::view::panels::table::TableRow;
-use crate::view::panels::verdict::VerdictText;
-use crate::view::theme::{PanelPalette, TYPE, colour, palette, strong_font};
+use crate::theme::{PanelPalette, TYPE, colour, palette, strong_font};
 
 pub(super) struct Row<'a> {
     loops: &'a LoopLab,

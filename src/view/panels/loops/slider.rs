@@ -3,11 +3,11 @@
 use egui::{Align2, Rangef, Response, Ui};
 
 use crate::loops::loop_lab::{LoopCommand, LoopLab};
+use crate::panels::timeline::{Groove, Span, THICKNESS, pressed, step};
 use crate::studio::Command;
-use crate::view::panels::timeline::{Groove, Span, THICKNESS, pressed, step};
-use crate::view::theme::palette;
+use crate::theme::palette;
 
-pub(in crate::view::panels) fn show(ui: &mut Ui, loops: &LoopLab, commands: &mut Vec<Command>) {
+pub(in crate::panels) fn show(ui: &mut Ui, loops: &LoopLab, commands: &mut Vec<Command>) {
     let span = Span { from_s: 0.0, to_s: loops.end_ns() as f64 / 1e9 };
     let groove = Groove::new(ui.available_rect_before_wrap(), 0.0);
     let Some(groove) = groove.filter(|_| span.to_s > 0.0) else { return };
@@ -49,11 +49,11 @@ mod tests {
     use egui::{Vec2, pos2, vec2};
 
     use super::*;
+    use crate::panels;
+    use crate::panels::timeline::{HEIGHT, MARGIN, MEMORY, TRACK_Y};
     use crate::scene::Scene;
     use crate::studio::{Studio, run_loops};
-    use crate::view::panels;
-    use crate::view::panels::timeline::{HEIGHT, MARGIN, MEMORY, TRACK_Y};
-    use crate::view::tests::testing::TestWindow;
+    use crate::tests::testing::TestWindow;
 
     const SIZE: Vec2 = vec2(1280.0, 720.0);
 

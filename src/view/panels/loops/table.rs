@@ -6,22 +6,22 @@ use egui::Ui;
 use super::row::Row;
 use crate::loops::PACING_METRICS;
 use crate::loops::loop_lab::LoopLab;
+use crate::panels::lanes::{ROW, height_of};
+use crate::panels::table::{Column, SortKey, Table, TableRow, show_words};
 use crate::run::Unit;
 use crate::stage::number::round;
 use crate::studio::Command;
-use crate::view::panels::lanes::{ROW, height_of};
-use crate::view::panels::table::{Column, SortKey, Table, TableRow, show_words};
-use crate::view::theme::TYPE;
+use crate::theme::TYPE;
 
 /// Maximum number of rows in sight, because the stage and the instrument need the room. The list scrolls to further
 /// rows.
 const MAX_ROWS: usize = 6;
 
-pub(in crate::view::panels) fn height(loops: &LoopLab) -> f32 {
+pub(in crate::panels) fn height(loops: &LoopLab) -> f32 {
     height_of(loops.lanes().len().min(MAX_ROWS))
 }
 
-pub(in crate::view::panels) fn show(ui: &mut Ui, loops: &LoopLab, commands: &mut Vec<Command>) {
+pub(in crate::panels) fn show(ui: &mut Ui, loops: &LoopLab, commands: &mut Vec<Command>) {
     table(loops).show(ui, groups(loops), commands, |_, _, _| {});
 }
 

@@ -2,12 +2,12 @@
 
 use egui::{Align2, Color32, Rect, RichText, Sense, Slider, Ui, WidgetInfo, pos2, vec2};
 
-use crate::scene::TickRate;
-use crate::studio::{Command, MySpring, SpringField, StepResponse, StepResponses};
-use crate::view::chart::{
+use crate::chart::{
     self, AxisScale, Curve, Dots, Drawing, LineStyle, NUMBER, PlotArea, Primitive, Text,
 };
-use crate::view::theme::{PanelPalette, colour, palette};
+use crate::scene::TickRate;
+use crate::studio::{Command, MySpring, SpringField, StepResponse, StepResponses};
+use crate::theme::{PanelPalette, colour, palette};
 
 /// Height of the line of a mass, and half the side of a mass, in points.
 const TRACK: f32 = 37.0;

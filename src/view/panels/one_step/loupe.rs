@@ -2,10 +2,10 @@
 
 use egui::{Align2, Color32, FontId, Painter, Pos2, Stroke, Vec2, vec2};
 
+use crate::chart::PlotArea;
 use crate::measure::OneStep;
 use crate::stage::number::{enlargement, round};
-use crate::view::chart::PlotArea;
-use crate::view::theme::PanelPalette;
+use crate::theme::PanelPalette;
 
 /// Radius of the loupe, its minimum radius, and its distances from the plot's edges and from everything else in the
 /// plot, in points.
@@ -70,7 +70,7 @@ pub(super) fn show(
 mod tests {
     use crate::scene::Scene;
     use crate::studio::{Instrument, StageCommand, Studio, ViewCommand};
-    use crate::view::tests::testing::TestWindow;
+    use crate::tests::testing::TestWindow;
 
     /// Returns the labels of the loupes in a frame, under the method at this index of the spring's list.
     fn labels(entry: usize) -> Vec<String> {

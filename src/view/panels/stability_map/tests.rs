@@ -3,7 +3,7 @@ use egui::{Event, Modifiers};
 use super::*;
 use crate::scene::Scene;
 use crate::studio::{Instrument, RunCommand, StageCommand, Step};
-use crate::view::tests::testing::{TestWindow, button};
+use crate::tests::testing::{TestWindow, button};
 
 fn studio(scene: &str) -> Studio {
     let mut studio = Studio::new(Scene::built_in(scene).unwrap());

@@ -10,7 +10,7 @@ use crate::scene::TickRate;
 use crate::stage::Parameter;
 use crate::stage::number::round;
 use crate::studio::Studio;
-use crate::view::theme::{palette, strong_font};
+use crate::theme::{palette, strong_font};
 
 /// Returns the letter of a parameter in the equation of motion, or else the parameter's name.
 pub(super) fn letter(parameter: &Parameter) -> String {

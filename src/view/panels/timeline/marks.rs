@@ -6,7 +6,7 @@ use crate::run::race::{Race, TimeScale};
 use crate::run::{Event, EventKind};
 use crate::scene::{Action, LaneId, LaneSpec, Scene};
 use crate::studio::Compared;
-use crate::view::theme::PanelPalette;
+use crate::theme::PanelPalette;
 
 /// The sign of a mark. If several marks are in one place, the sign that comes last in this order is drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -235,7 +235,7 @@ pub(super) fn colours(
 mod tests {
     use super::*;
     use crate::studio::{RunCommand, StageCommand, Studio};
-    use crate::view::theme::palette_of;
+    use crate::theme::palette_of;
 
     fn marks(studio: &Studio) -> Vec<(Sign, String)> {
         let timeline = studio.run();

@@ -9,35 +9,35 @@ const FOLLOWED_AT: f64 = 0.8;
 
 /// A range of time, in seconds.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(in crate::view::panels) struct Span {
-    pub(in crate::view::panels) from_s: f64,
-    pub(in crate::view::panels) to_s: f64,
+pub(in crate::panels) struct Span {
+    pub(in crate::panels) from_s: f64,
+    pub(in crate::panels) to_s: f64,
 }
 
 impl Span {
     /// Creates the view of a whole run that ends at `end_s`. The view reaches to the end of the scene, or beyond that
     /// with some room ahead.
-    pub(in crate::view::panels) fn whole(scene_s: f64, end_s: f64) -> Self {
+    pub(in crate::panels) fn whole(scene_s: f64, end_s: f64) -> Self {
         Self { from_s: 0.0, to_s: scene_s.max(end_s + AHEAD * (end_s - scene_s)) }
     }
 
-    pub(in crate::view::panels) fn length_s(self) -> f64 {
+    pub(in crate::panels) fn length_s(self) -> f64 {
         self.to_s - self.from_s
     }
 
     /// Returns the x of time `t` on a track.
-    pub(in crate::view::panels) fn x(self, t: f64, track: Rangef) -> f32 {
+    pub(in crate::panels) fn x(self, t: f64, track: Rangef) -> f32 {
         track.min + ((t - self.from_s) / self.length_s()) as f32 * track.span()
     }
 
     /// Returns the time at `x` on a track.
-    pub(in crate::view::panels) fn t(self, x: f32, track: Rangef) -> f64 {
+    pub(in crate::panels) fn t(self, x: f32, track: Rangef) -> f64 {
         self.from_s + f64::from((x - track.min) / track.span()) * self.length_s()
     }
 
     /// Returns the view enlarged by `factor`, with `about_s` at the same place. The view is at least `min_s` long and
     /// stays within `whole`.
-    pub(in crate::view::panels) fn zoomed(
+    pub(in crate::panels) fn zoomed(
         self,
         about_s: f64,
         factor: f64,
@@ -51,12 +51,12 @@ impl Span {
     }
 
     /// Returns the view of the same length `by_s` later, but within `whole`.
-    pub(in crate::view::panels) fn moved(self, by_s: f64, whole: Self) -> Self {
+    pub(in crate::panels) fn moved(self, by_s: f64, whole: Self) -> Self {
         Self { from_s: self.from_s + by_s, to_s: self.to_s + by_s }.within(whole)
     }
 
     /// Returns the view, moved so that it shows `now_s` if it does not yet.
-    pub(in crate::view::panels) fn following(self, now_s: f64, whole: Self) -> Self {
+    pub(in crate::panels) fn following(self, now_s: f64, whole: Self) -> Self {
         if (self.from_s..=self.to_s).contains(&now_s) {
             return self;
         }

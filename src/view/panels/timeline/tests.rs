@@ -1,11 +1,11 @@
 use egui::Event as Input;
 
 use super::*;
+use crate::panels;
 use crate::run::diff::{Comparison, Difference};
 use crate::scene::{Action, Scene};
 use crate::studio::{RunCommand, StageCommand, Step, show_comparison};
-use crate::view::panels;
-use crate::view::tests::testing::{TestWindow, button};
+use crate::tests::testing::{TestWindow, button};
 
 const SIZE: Vec2 = vec2(1280.0, 720.0);
 

@@ -1,7 +1,7 @@
 use super::*;
 use crate::scene::{Action, Scene};
 use crate::studio::{RunCommand, StageCommand};
-use crate::view::theme::palette_of;
+use crate::theme::palette_of;
 
 const STYLE: TrackStyle = TrackStyle { dots: Dots::None, is_over_time: true };
 

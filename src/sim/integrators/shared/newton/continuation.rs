@@ -11,11 +11,11 @@
 //! at 1 to 8 Hz. Without continuation, an implicit method halts within minutes there.
 
 use super::Newton;
-use crate::sim::integrators::shared::krylov::dot;
-use crate::sim::integrators::shared::stages::{Stages, largest_of};
-use crate::sim::numerics::quotient;
-use crate::sim::state::Vector;
-use crate::sim::system::System;
+use crate::integrators::shared::krylov::dot;
+use crate::integrators::shared::stages::{Stages, largest_of};
+use crate::state::Vector;
+use crate::state::quotient;
+use crate::system::System;
 
 /// The longest arc length of a step, in each of three attempts. Longer steps can jump to a nearby curve that leads
 /// nowhere, and shorter steps take more work.

@@ -7,10 +7,10 @@
 //! solution, from which Newton's iteration continues.
 
 use super::{Convergence, MAX_ITERATIONS, Newton, Progress, ROUND_OFF};
-use crate::sim::integrators::shared::krylov::length;
-use crate::sim::integrators::shared::stages::{Stages, largest_of};
-use crate::sim::state::{Vector, largest};
-use crate::sim::system::System;
+use crate::integrators::shared::krylov::length;
+use crate::integrators::shared::stages::{Stages, largest_of};
+use crate::state::{Vector, largest};
+use crate::system::System;
 
 /// The relative residual of the linear equations of an iteration. The next iteration reduces the residual further.
 const LINEAR_TOLERANCE: f64 = 1e-4;

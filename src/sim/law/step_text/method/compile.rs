@@ -3,14 +3,14 @@
 use std::slice::Iter;
 
 use super::{Act, Array, Function, General, Machine, StepCall};
-use crate::sim::law::expression::Expression;
-use crate::sim::law::op::Op;
-use crate::sim::law::step_text::{Line, V, X};
-use crate::sim::law::tape::MAX_OPERATIONS;
+use crate::law::expression::Expression;
+use crate::law::op::Op;
+use crate::law::step_text::{Line, V, X};
+use crate::law::tape::MAX_OPERATIONS;
 
 impl Machine {
     /// Compiles lines with this number of names; `None` if they have more than [`MAX_OPERATIONS`] operations.
-    pub(in crate::sim::law::step_text) fn new(
+    pub(in crate::law::step_text) fn new(
         names: usize,
         lines: &[Line],
         functions: &[Function],

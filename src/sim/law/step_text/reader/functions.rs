@@ -3,12 +3,12 @@
 use std::ops::Range;
 
 use super::{ACCELERATION, MAX_STEP_NAMES, Reader};
-use crate::sim::law::fault::{Parsed, fault, quoted};
-use crate::sim::law::step_text::method::{Function, General, Input, Taken};
-use crate::sim::law::step_text::plain::plain;
-use crate::sim::law::step_text::statements::{Statement, statements};
-use crate::sim::law::step_text::{Line, TARGET, X};
-use crate::sim::law::token::is_name_part;
+use crate::law::fault::{Parsed, fault, quoted};
+use crate::law::step_text::method::{Function, General, Input, Taken};
+use crate::law::step_text::plain::plain;
+use crate::law::step_text::statements::{Statement, statements};
+use crate::law::step_text::{Line, TARGET, X};
+use crate::law::token::is_name_part;
 
 /// The maximum number of functions of a text.
 const MAX_FUNCTIONS: usize = 16;

@@ -62,7 +62,7 @@ fn sea_rect(sea: Sea, transform: &ScreenTransform) -> Option<SeaRect> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::view::tests::testing::draw_picture;
+    use crate::tests::testing::draw_picture;
 
     #[test]
     fn a_sea_fills_exactly_its_rectangle_and_is_lighter_above() {
