@@ -65,7 +65,8 @@ fn the_icon_is_square_and_the_metadata_has_the_package_version() {
 /// The crates in the program on this system, as `name version`.
 fn crates() -> BTreeSet<String> {
     let mut tree = Command::new(env!("CARGO"));
-    tree.args(["tree", "--offline", "--locked", "--edges", "normal", "--prefix", "none"]);
+    tree.args(["tree", "--package", "regatta", "--offline", "--locked"]);
+    tree.args(["--edges", "normal", "--prefix", "none"]);
     let output = tree.current_dir(env!("CARGO_MANIFEST_DIR")).output().expect("cargo runs this");
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
     let text = String::from_utf8(output.stdout).expect("names");
