@@ -1,5 +1,8 @@
 //! The settings with which a run starts, which are a scene with a person's edits, and the chosen methods, lanes and
 //! tick rate.
+//!
+//! A person's edit applies to the run and to the next start, so that a restart does not lose it. The script's effects
+//! are left out, because each run performs the script again.
 
 use std::sync::Arc;
 

@@ -1,5 +1,9 @@
 //! Time in a studio: the ticks due in a frame, and the displayed moment between two ticks. Time slows down while a lane
 //! outgrows the stage too fast to see.
+//!
+//! A blow-up grows by powers of ten within a few frames, before a person sees its cause. In slow motion no landmark
+//! passes in less than [`LANDMARK_S`]. It applies to a single lane that a person watches, and only at the usual speed,
+//! so that a chosen speed stays. It scales the time that the clock receives, and changes no bit of the run.
 
 use super::Motion;
 use super::deck::Deck;
