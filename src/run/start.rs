@@ -35,7 +35,7 @@ pub struct StartSettings {
     /// Tick rate at the start.
     pub tick_hz: TickRate,
     /// The lanes before equal cost was switched on; `None` while equal cost is off.
-    pub before_equal_cost: Option<Vec<(LaneId, LaneSpec)>>,
+    pub lanes_before_equal_cost: Option<Vec<(LaneId, LaneSpec)>>,
 }
 
 impl StartSettings {
@@ -53,7 +53,7 @@ impl StartSettings {
             entry,
             tick_hz: scene.tick_hz,
             given: Vec::new(),
-            before_equal_cost: None,
+            lanes_before_equal_cost: None,
             scene,
         }
     }
@@ -96,7 +96,7 @@ impl StartSettings {
         if !self.lanes.contains(&entry) {
             self.lanes.push(entry);
         }
-        (self.entry, self.mode, self.before_equal_cost) = (entry, Mode::Race, None);
+        (self.entry, self.mode, self.lanes_before_equal_cost) = (entry, Mode::Race, None);
         true
     }
 
