@@ -1,5 +1,8 @@
 //! A file that appears whole under its name or not at all, even after a loss of power. It is written under a
 //! temporary name beside its place, synced, and renamed.
+//!
+//! The temporary name is in the same directory, because a rename is atomic only within a file system. The sync comes
+//! before the rename, or after a loss of power the name could lead to an empty file.
 
 use std::fs::{File, Metadata};
 use std::io::{self, Write};

@@ -55,6 +55,37 @@ due [ticks](run::Run::tick) → [`compose`](stage::compose()) → `FrameRenderer
   [stops](studio::guide::STOPS), [game loops](loops::POLICIES), [their metrics](loops::PACING_METRICS) and
   [traces](loops::TRACES). Menus, help and tests loop over them.
 
+# Words
+
+- **band**: a lane's strip of the stage, or a loop's in the loop lab; of a matrix, the entries near its diagonal
+- **card**: the constant that describes a method, a loop or a trace: names, source and claims, which tests measure
+- **check**: the hash of a lane at a tick, in a recording
+- **checkpoint**: the state after a change of the run, from which a verdict, advice or a cloud starts
+- **cloud**: many starts around the state of a body, stepped by one method
+- **criterion**: a demand on a method: bounded, looks right or accurate
+- **deck**: a run as a person controls it, with its clock, the selected lane and a body in hand
+- **entrant**: a lane in a race, with its number and its settings
+- **entry**: a method on the menu; a digit, a row and a colour name it by its menu index
+- **fan**: the next second of a body under each method, drawn from its present state
+- **ghost**: the true body, drawn among the lanes
+- **halt**: the end of a body that blew up or whose method failed; it keeps its last good state
+- **horizon**: the time over which a lane is judged: the length of the scene, a minute at most
+- **journal**: all actions of a run by tick, performed and pending, by the script and by hand
+- **lane**: one method on its own copy of the scene's bodies; the truth is a lane, too
+- **moment**: a time to draw, which may lie between two ticks
+- **notice**: a message to the person, which disappears by itself
+- **past**: the samples of a run that are kept for drawing, and no part of its state
+- **reserve**: the factor by which bodies could be stiffer before a method misses its criterion
+- **rule**: the line after a step that handles an impact, or a person's own lines for one frame
+- **stage**: the picture of the bodies, as data
+- **stop**: one station of the guide: a scene, a question and a task
+- **substep**: a step of the method; a tick has one or more of equal length, unless the method chooses them
+- **tick**: the unit of a run's time; actions come before a tick, and drawing lies between two
+- **told**: in code, words that something has returned: the parts of a notice, the lines of a report
+- **truth**: the exact motion, by a closed form or by the reference solution
+- **verdict**: the result of a comparison of a lane with the truth: a word, its number, and the findings behind them
+- **viewer**: a person's view of a run, which never changes the run
+
 # Add a thing
 
 - **A method**: copy `sim/integrators/midpoint.rs`, add a line to `methods!` and its source to `assets/methods`.

@@ -1,4 +1,8 @@
 //! The error that ends a command.
+//!
+//! The exit code follows from the reason, so that a script can tell a request to correct (2) from a run that failed (1)
+//! and from an interrupt (130). A closed pipe ends the command quietly: its reader has enough. A mistake comes with its
+//! remedy.
 
 use std::fmt::Display;
 use std::io;

@@ -1,4 +1,8 @@
 //! The directory that a capture fills with numbered pictures and a manifest. Each file appears whole or not at all.
+//!
+//! The manifest is removed first and written last, so that a folder with a manifest has every frame that it lists. Only
+//! files that a capture made are removed, as their content shows: `--force` with a wrong folder must not cost a
+//! person's pictures. A lock keeps other captures out, or two would mix their frames.
 
 use std::ffi::OsString;
 use std::fs;

@@ -80,9 +80,9 @@ pub(super) struct IdentifyArgs {
     tick_hz: Option<f64>,
 
     /// The length of a tick, in place of --tick-hz
-    #[arg(long, value_name = "s", value_parser = rate_of_a_step, conflicts_with = "tick_hz")]
+    #[arg(long = "step", value_name = "s", value_parser = rate_of_a_step, conflicts_with = "tick_hz")]
     #[arg(allow_negative_numbers = true)]
-    step: Option<f64>,
+    step_hz: Option<f64>,
 
     /// The mass in kg
     #[arg(long, value_name = "kg", default_value = "1", value_parser = positive)]
@@ -242,7 +242,7 @@ pub(super) fn run(args: &IdentifyArgs) -> Result<(), Error> {
 /// Returns the log of each body and each coordinate, with a name where there are several. Where one cannot be read, the
 /// reason is printed.
 fn logs(args: &IdentifyArgs, file: &LogFile) -> Result<Vec<(String, Log)>, Error> {
-    let (tick_hz, options) = (args.tick_hz.or(args.step), args.read.table.options());
+    let (tick_hz, options) = (args.tick_hz.or(args.step_hz), args.read.table.options());
     let bodies: Vec<_> = match file.log(&options, tick_hz) {
         Ok(log) => vec![(String::new(), log, options)],
         Err(error) => {

@@ -237,6 +237,7 @@ const METHOD: &[Column<Method>] = &[
         json!(free_spin(method).and_then(|spin| spin.opt_in).map(SpinMap::id))
     }),
     Column::shown("about", "ABOUT", |method| json!(method.about)),
+    Column::new("caveat", |method| json!(method.caveat)),
     Column::new("source", |method| json!(method.source)),
 ];
 

@@ -104,9 +104,9 @@ pub(super) struct PortArgs {
     tick_hz: Option<f64>,
 
     /// The length of a tick, in place of --tick-hz
-    #[arg(long, value_name = "s", value_parser = rate_of_a_step, conflicts_with = "tick_hz")]
+    #[arg(long = "step", value_name = "s", value_parser = rate_of_a_step, conflicts_with = "tick_hz")]
     #[arg(allow_negative_numbers = true)]
-    step: Option<f64>,
+    step_hz: Option<f64>,
 
     /// Substeps per tick, 1 to 1000 [default: each engine's own]
     #[arg(long, value_name = "N")]
@@ -173,7 +173,7 @@ const USUAL_HZ: f64 = 60.0;
 impl PortArgs {
     /// Returns the tick rate in Hz, from either of its options.
     fn tick_hz(&self) -> f64 {
-        self.step.or(self.tick_hz).unwrap_or(USUAL_HZ)
+        self.step_hz.or(self.tick_hz).unwrap_or(USUAL_HZ)
     }
 }
 
@@ -234,7 +234,7 @@ pub(super) fn run(args: &PortArgs) -> Result<(), Error> {
             shown
         }
         Some(WishSource::Log(path)) => {
-            let log = args.read.read(&path, (args.step.or(args.tick_hz), USUAL_HZ))?;
+            let log = args.read.read(&path, (args.step_hz.or(args.tick_hz), USUAL_HZ))?;
             (tick_hz, read) = (log.tick_hz(), Some(log.taken().clone()));
             let found = identify(&log, &args.read.body(args.mass), tick_hz);
             if let Some(half_life_s) = found.as_ref().and_then(Identification::chase_half_life_s)

@@ -1,5 +1,8 @@
 //! The times of a recording's frames, and the advance of a studio from one frame to the next. These times are computed,
 //! and never read from a clock.
+//!
+//! A slow machine takes longer for a capture, and draws the same frames. The clock drops no time here, since long
+//! frames are cut into stretches that it accepts.
 
 use super::error::Error;
 use super::frame_names::MAX_FRAMES;

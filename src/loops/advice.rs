@@ -1,4 +1,8 @@
 //! Recommends a game loop, for the command line and the loop lab.
+//!
+//! A fixed tick comes first, because without one the physics depends on the frame rate. Then a loop must keep its speed
+//! and the motion, and must not flutter. Among those that are left, smoothness comes before latency, up to a limit of
+//! the latency that a person sets.
 
 use super::metrics::PacingReport;
 use super::policy::PolicyCard;

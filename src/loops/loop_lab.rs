@@ -113,7 +113,7 @@ impl LoopLab {
         let scene = Arc::new(scene.clone().of_one_body(body));
         let traces: Vec<_> = cards.into_iter().map(|card| card.trace(DISPLAY)).collect();
         let trace = traces[0].clone();
-        let mut studio = Self {
+        let mut lab = Self {
             body: at_start(&scene),
             request: Arc::new(LoopRequest {
                 scene: scene.clone(),
@@ -143,8 +143,8 @@ impl LoopLab {
             run_goes_on: true,
             stage_was_alone: false,
         };
-        studio.choose_trace(0);
-        studio
+        lab.choose_trace(0);
+        lab
     }
 
     /// Lets playback continue with the second trace of the opening by itself, until [`end_opening`](Self::end_opening).

@@ -1,4 +1,8 @@
 //! Measures how a loop looks to a viewer of the display.
+//!
+//! The animation error compares the change of the moment shown with the change of the time of display, from frame to
+//! frame. A constant delay has none: an eye that follows a motion sees unevenness, while a hand at the controls feels
+//! latency.
 
 use super::pacer::Pacer;
 use super::policy::Steps;

@@ -1,4 +1,7 @@
 //! A policy at work, and the time that it has simulated.
+//!
+//! No time is lost in silence: the time of all frames is simulated, dropped or owed, and the pacer counts each. A loop
+//! that drops time runs in slow motion, and one that owes time is late.
 
 use super::lines::Lines;
 use super::policy::{Build, Excess, FrameLimits, LongFrame, PolicyCard, Steps};

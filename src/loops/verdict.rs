@@ -1,4 +1,7 @@
 //! The verdict on a loop: a line of words and a severity.
+//!
+//! The first clause names the worst fault, since a fault hides those after it. A speed that depends on the frame rate
+//! makes latency meaningless, and a lost motion makes smoothness meaningless.
 
 use std::fmt;
 

@@ -1,4 +1,7 @@
 //! The change of a body's amplitude in a run, within the horizon and in the long run.
+//!
+//! The energy is compared as a mean over quarters of a run. Under many methods it varies within each turn without
+//! growing, so that its values at two moments show no trend. A growth that the true motion shares is not the method's.
 
 use super::amplitude::{Trend, amplitude};
 use super::frequency::{FrequencyError, frequency_error};

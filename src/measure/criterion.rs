@@ -1,5 +1,9 @@
 //! The criteria that a developer may require, the sizes of visible errors, and the margins with which a method meets
 //! a criterion.
+//!
+//! A game wants that nothing explodes, that the motion looks right, or that every position is right. The bounds are
+//! errors that a person would just see in the picture. They are the same for all scenes, so that verdicts can be
+//! compared.
 
 use crate::sim::TickRate;
 use crate::sim::number::round;

@@ -1,4 +1,7 @@
 //! The frequency error of a lane, from the times at which the lane crosses its centre.
+//!
+//! The frequency follows from crossings of the centre, because their times do not depend on the amplitude, which may
+//! grow or shrink. An error that differs between both halves of the run is no error of the frequency.
 
 use super::judged_run::JudgedRun;
 use super::truth::{BodyTruth, Swing};

@@ -1,4 +1,6 @@
 //! Steps one body under one method and compares it with its truth, tick by tick.
+//!
+//! Advice needs many runs, so that a run ends as soon as the rest cannot change the answer; see [`Until`].
 
 use std::ops::ControlFlow;
 use std::sync::Arc;

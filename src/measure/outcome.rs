@@ -1,4 +1,7 @@
 //! The outcomes of a run compared with the truth, and the sign and colour of each.
+//!
+//! The order is that of harm, because a lane of several bodies has the outcome of its worst one. An unknown outcome is
+//! worse than a good one and better than a bad one: it must hide neither.
 
 use super::criterion::Criterion;
 use crate::run::race::Halt;

@@ -1,4 +1,7 @@
 //! Searches for the limit of a property.
+//!
+//! A limit of the rate is approached from the side on which the property holds, and the first failure ends the search.
+//! A property may hold again beyond a failure, at a resonance for example, but a game should not rely on that.
 
 use super::criterion::MAX_STIFFER;
 

@@ -7,7 +7,7 @@ use crate::sim::integrators::StepFailure;
 /// Number of parts of a step that are searched for an extreme.
 const BETWEEN: u32 = 4;
 
-/// A moment of the true motion.
+/// A node of the curve of the true motion, which is the state and its slopes at one moment.
 #[derive(Clone, Debug)]
 pub(super) struct TruthNode {
     pub(super) t: f64,

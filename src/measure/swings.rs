@@ -1,5 +1,8 @@
 //! The swings of a body under a method, with the body's width in each half turn, and its passages through its centre.
 //! Both are found between the method's steps.
+//!
+//! At a coarse tick a step seldom falls on a peak, so that by its steps alone even an exact method would seem to lose
+//! amplitude. A picture with drawing between the ticks shows the peak.
 
 use crate::run::race::hermite;
 use crate::sim::Stepper;

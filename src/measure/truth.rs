@@ -1,4 +1,8 @@
 //! The true motion of one body, determined before any method is compared with it.
+//!
+//! Amplitudes, centres and ranges come from the truth alone, so that all methods are measured by the same scale. A
+//! method's own motion must not set the scale of its error. The truth itself may fail or be imprecise; then no lane is
+//! compared with it.
 
 use std::sync::Arc;
 

@@ -1,4 +1,7 @@
 //! The verdict on a method on a scene, with its outcome and the numbers behind the outcome.
+//!
+//! A verdict compares a lane with the truth, and never with another lane, so that it stays the same whichever methods
+//! race. A missing truth or too much work is a finding of its own: it is no reproach to the method.
 
 use super::amplitude::{Measure, Trend};
 use super::bounce_finding::BounceFinding;

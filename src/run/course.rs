@@ -1,4 +1,8 @@
 //! The course of a run from its start to the last tick reached, with its session, observations, snapshots and events.
+//!
+//! A tick is recorded when the run first reaches it, because its repetition gives the same halts and hashes. Moving
+//! back therefore loses nothing; only an action splits off the record of all later ticks. Checks count until a person
+//! acts, since the recording that they are from knows no such action.
 
 use super::observations::ObservationsMark;
 use super::race::{Author, Journal, Observer, PerformedAction, Race};

@@ -1,4 +1,8 @@
 //! The menu of methods from which a person picks.
+//!
+//! An entry never moves, because a person has learned its digit and its colour. In a race a lane keeps its entry when a
+//! script switches its method: there a person follows the lane. Alone, the person follows the method, and the lane
+//! takes the entry of that method.
 
 use super::race::{Entrant, Mode, PerformedAction, Race, Switch};
 use crate::scene::{Action, LaneId, LaneSpec};

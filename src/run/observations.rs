@@ -1,4 +1,7 @@
 //! Everything that follows a race without being part of its state: the menu, the checkpoints and the drawn past.
+//!
+//! They stay outside the race, so that a copy or a hash of a race has only the data that its physics needs. A snapshot
+//! holds a mark of the drawn past in place of the samples, because a repetition of the ticks restores them.
 
 use super::Menu;
 use super::past::{Past, PastMark};

@@ -1,5 +1,9 @@
 //! A run as a scene, with the run's start, its actions, and its states as checks. [`Replay`] repeats such a scene and
 //! compares.
+//!
+//! A recording has the start and the actions, and no states, because these follow to the bit. Its checks detect a
+//! program or a platform that computes otherwise. They come once a second at most, so that a failed check shows the
+//! second of the first difference, and the file stays readable.
 
 use std::sync::Arc;
 

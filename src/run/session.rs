@@ -1,4 +1,7 @@
 //! A run as a value, which only [actions](Action) and ticks change. A copy continues identically to the bit.
+//!
+//! Nothing else may change it: no clock, no frame and no viewer. Undo, recordings and links all repeat a run from its
+//! start and its actions, and rely on the same bits.
 
 use std::sync::Arc;
 

@@ -1,5 +1,8 @@
 //! The settings with which a run starts, which are a scene with a person's edits, and the chosen methods, lanes and
 //! tick rate.
+//!
+//! A person's edit applies to the run and to the next start, so that a restart does not lose it. The script's effects
+//! are left out, because each run performs the script again.
 
 use std::sync::Arc;
 
@@ -32,7 +35,7 @@ pub struct StartSettings {
     /// Tick rate at the start.
     pub tick_hz: TickRate,
     /// The lanes before equal cost was switched on; `None` while equal cost is off.
-    pub before_equal_cost: Option<Vec<(LaneId, LaneSpec)>>,
+    pub lanes_before_equal_cost: Option<Vec<(LaneId, LaneSpec)>>,
 }
 
 impl StartSettings {
@@ -50,7 +53,7 @@ impl StartSettings {
             entry,
             tick_hz: scene.tick_hz,
             given: Vec::new(),
-            before_equal_cost: None,
+            lanes_before_equal_cost: None,
             scene,
         }
     }
@@ -93,7 +96,7 @@ impl StartSettings {
         if !self.lanes.contains(&entry) {
             self.lanes.push(entry);
         }
-        (self.entry, self.mode, self.before_equal_cost) = (entry, Mode::Race, None);
+        (self.entry, self.mode, self.lanes_before_equal_cost) = (entry, Mode::Race, None);
         true
     }
 

@@ -1,4 +1,8 @@
 //! One stack of all edits that can be undone or redone.
+//!
+//! One change is whatever happens between pointer down and pointer up, or by one key: an edit joins the newest change
+//! until that is closed. So undo takes back a whole drag. Within a run a change holds the other side as journal rows,
+//! which repeat it exactly: its snapshots only save time, and memory may run out of room for them.
 
 use super::course::{Course, RunRecord, Snapshot};
 use super::race::JournalTail;

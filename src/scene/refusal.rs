@@ -1,4 +1,8 @@
 //! Decides which methods can step a scene, and makes lanes of them.
+//!
+//! A method that cannot step a body is refused with the reason on its card, and never replaced, because results under
+//! another method would mislead. Engines only appear where a scene names one, since they are no methods for a game to
+//! implement.
 
 use super::{Scene, SceneBody};
 use crate::sim::bodies::incompatibility;

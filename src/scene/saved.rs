@@ -1,4 +1,7 @@
 //! Saves a scene in the form of the file from which it was read.
+//!
+//! A person wrote the file, and its comments explain it. So only changed values are written, and the whole text only if
+//! the form of the file makes that impossible.
 
 use toml_edit::{ArrayOfTables, DocumentMut, Item, Table, TableLike};
 

@@ -1,4 +1,7 @@
 //! Converts between ticks and seconds in runs whose tick rate changes.
+//!
+//! Scripts are in seconds and runs in ticks. An action comes at the nearest tick, so that another rate moves it by half
+//! a tick at most.
 
 use super::action::Action;
 use crate::sim::TickRate;

@@ -1,4 +1,9 @@
 //! The steps of a body that meets walls: a method, and the rule for impacts after or within its steps.
+//!
+//! Rules differ in the place of the impact: within the step, after it, or before the next one. A rule within the step
+//! looks for the time by trial steps of a copy, because the method's memory must not contain trials. After each impact
+//! the method starts afresh, since its memory is of a motion without the jump. A body that bounces within too short a
+//! time rests, or one step would have infinitely many impacts.
 
 use super::body::Body;
 use super::impact::{Bounces, Locating, Rule, Turn, Wall};

@@ -1,4 +1,8 @@
 //! Impacts of a body on its walls: the walls, the rules by which the line after a step handles them, and a record.
+//!
+//! A rule is a choice beside the method, because a game has both: a step, and a line for the floor after it. Either may
+//! add energy at an impact. With semi-implicit Euler (s = -1) a mirror (κ = 1) adds none, and a clamp or a turn of the
+//! velocity alone takes some.
 
 use std::fmt;
 

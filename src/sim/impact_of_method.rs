@@ -1,4 +1,7 @@
 //! Which rules for impacts fit a method, and the order of both together.
+//!
+//! An engine with a rule of its own accepts no other, because its logs are of both together, and so it is with a
+//! person's lines. Any other method takes any of the other rules, and the order of both is the smaller one.
 
 use super::impact::{IMPACTS, Impact, Locating, Rule, Turn};
 use super::integrators::Method;

@@ -1,4 +1,8 @@
 //! Methods made of a person's own lines, with measured cards.
+//!
+//! Lines make no claims, so that the card of a method is measured, unless it needs a target or a joint. Then menus,
+//! advice and refusals treat them as they do any other method. Equal lines are one method, which stays for the life of
+//! the process, because lanes name methods by `&'static`.
 
 use std::sync::{Mutex, PoisonError};
 

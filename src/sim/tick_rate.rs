@@ -1,4 +1,8 @@
 //! A tick rate as a ratio of integers, so that 66.667 Hz and a step of 0.015 s are as exact as 60 Hz.
+//!
+//! A rate and a display influence each other. Without drawing between ticks, 50 Hz on a display of 60 Hz repeats every
+//! sixth picture. At equal rates the rounding of frame times decides between no tick, one and two. Drawing between
+//! ticks hides both, and is a tick late.
 
 use std::cmp::Ordering;
 use std::fmt;

@@ -1,4 +1,7 @@
 //! The moment to draw, which may lie between two ticks.
+//!
+//! Bodies, ghosts, trails and numbers all belong to one moment. A ghost at the last tick beside a body between two
+//! ticks would show an error that the method does not have.
 
 use crate::look::palette::{Palette, Rgba};
 use crate::run::MenuIndex;

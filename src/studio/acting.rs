@@ -30,11 +30,11 @@ pub(super) fn act(deck: &mut Deck, viewer: &mut Viewer, action: Action) {
     let replaces = deck.run.replaces_open_action(&action);
     let (is_input, rests) = (action.input().is_some(), deck.comes_to_rest(viewer.motion()));
     let before = matches!(action, Action::TickHz(_)).then(|| deck.race().clone());
-    let (done, mut told) = deck.with_notices(|run, notices| run.act_within(action, notices));
+    let (done, mut parts) = deck.with_notices(|run, notices| run.act_within(action, notices));
     deck.edits -= u64::from(replaces);
     let Some(done) = done else {
         viewer.notice.take_if(|_| replaces);
-        return viewer.set_notice_parts(told);
+        return viewer.set_notice_parts(parts);
     };
     deck.edits += 1;
     match before {
@@ -53,8 +53,8 @@ pub(super) fn act(deck: &mut Deck, viewer: &mut Viewer, action: Action) {
     let released = done.released.map(|control| {
         format!("you have the {} now: the script leaves it alone until a restart", control.name())
     });
-    told.extend(released.into_iter().chain(discarded));
-    viewer.set_notice_parts(told);
+    parts.extend(released.into_iter().chain(discarded));
+    viewer.set_notice_parts(parts);
 }
 
 pub(super) fn pick(deck: &mut Deck, viewer: &mut Viewer, entry: MenuIndex) {
@@ -148,7 +148,7 @@ pub(super) fn toggle_equal_cost(deck: &mut Deck, viewer: &mut Viewer) {
     }
     let lanes: Vec<(LaneId, LaneSpec)> =
         deck.race().entrants().iter().map(|entrant| (entrant.id, entrant.spec)).collect();
-    let (wanted, before, notice) = match &deck.run.next().before_equal_cost {
+    let (wanted, before, notice) = match &deck.run.next().lanes_before_equal_cost {
         Some(before) => {
             let of = |(lane, spec): &(LaneId, LaneSpec)| {
                 let own = before.iter().find(|(known, _)| known == lane);
@@ -171,7 +171,7 @@ pub(super) fn toggle_equal_cost(deck: &mut Deck, viewer: &mut Viewer) {
     for ((lane, _), spec) in lanes.into_iter().zip(wanted) {
         act(deck, viewer, Action::Lane { lane, spec });
     }
-    deck.run.next_mut().before_equal_cost = before;
+    deck.run.next_mut().lanes_before_equal_cost = before;
     viewer.set_notice(notice);
 }
 

@@ -1,4 +1,8 @@
 //! Passes each command to the part of the studio that executes it.
+//!
+//! Each command first closes the open undo change unless the pointer is down, so that one change is one key or one
+//! drag. While the guide asks for a prediction, commands that move time are refused: a prediction after the motion is
+//! none.
 
 use super::Studio;
 use super::book_figure::{figure_of_digit, open_figure};

@@ -422,11 +422,11 @@ impl Deck {
         let mut notices = Notices::new(&scene);
         let done = self.run.race().done();
         let changed = change(&mut self.run, &mut notices);
-        let told = notices.parts;
+        let parts = notices.parts;
         self.clock.set_tick_hz(self.race().tick_hz());
         self.select_as_scripted(done);
         self.met = self.met.max(self.active() + 1);
-        (changed, told)
+        (changed, parts)
     }
 
     /// Selects the lane of a race whose method the script selected in the rows of the journal after the first `done`.

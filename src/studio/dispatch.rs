@@ -1,4 +1,8 @@
 //! Passes commands on the run to the functions that execute them, and so commands on the stage while it shows the run.
+//!
+//! A command has the same effect whether it comes from a key, a panel, a script or a test. Its rules therefore stand in
+//! the function that executes it, and never in the panel with its button. The loop lab refuses commands on the run, and
+//! has its own meaning for commands on the stage.
 
 use super::acting::{
     act, menu_index, next_impact, pick, pick_beside, seek, set_lane, step_by, tell_of_the_future,

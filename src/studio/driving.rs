@@ -1,5 +1,9 @@
 //! Time in a studio: the ticks due in a frame, and the displayed moment between two ticks. Time slows down while a lane
 //! outgrows the stage too fast to see.
+//!
+//! A blow-up grows by powers of ten within a few frames, before a person sees its cause. In slow motion no landmark
+//! passes in less than [`LANDMARK_S`]. It applies to a single lane that a person watches, and only at the usual speed,
+//! so that a chosen speed stays. It scales the time that the clock receives, and changes no bit of the run.
 
 use super::Motion;
 use super::deck::Deck;
@@ -40,8 +44,9 @@ pub(super) fn advance(
     observer: &mut dyn Observer,
 ) -> Due {
     // A tick rate that the script sets at this tick already applies to the time after it.
-    let ((), told) = deck.with_notices(|run, notices| run.catch_up(&mut (notices, &mut *observer)));
-    viewer.set_notice_parts(told);
+    let ((), parts) =
+        deck.with_notices(|run, notices| run.catch_up(&mut (notices, &mut *observer)));
+    viewer.set_notice_parts(parts);
     let thousandths = slow_motion(deck, viewer);
     let mut due = deck.clock.advance(frame_ns.saturating_mul(i64::from(thousandths)) / 1000);
     for made in 1..=due.ticks {
@@ -76,8 +81,8 @@ pub(super) fn advance(
 /// Performs the actions at this tick, and steps to the next tick.
 pub(super) fn make_tick(deck: &mut Deck, viewer: &mut Viewer, observer: &mut dyn Observer) {
     viewer.notice.take_if(|notice| notice.is_of_tick());
-    let ((), told) = deck.with_notices(|run, notices| run.tick(&mut (notices, observer)));
-    viewer.set_notice_parts(told);
+    let ((), parts) = deck.with_notices(|run, notices| run.tick(&mut (notices, observer)));
+    viewer.set_notice_parts(parts);
 }
 
 fn note_frame(deck: &mut Deck, viewer: &mut Viewer, duration_ns: i64, due: Due) {

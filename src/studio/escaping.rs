@@ -1,4 +1,7 @@
 //! The order in which Escape takes away whatever lies over the run, and the question before the program quits.
+//!
+//! One press takes away one thing, and the last press only asks, so that a person who presses once too often loses
+//! nothing. A page asks nothing, because it cannot quit.
 
 use std::mem::take;
 

@@ -1,4 +1,8 @@
 //! The verdicts and the advice of a studio: which of them to compute, and which findings to accept.
+//!
+//! Work on an earlier request may finish late, so that findings name their scene and those on another one are dropped.
+//! A capture limits the work of a verdict by a fixed amount, not by time: the same command must draw the same words on
+//! every machine.
 
 use std::sync::Arc;
 

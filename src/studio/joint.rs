@@ -104,9 +104,9 @@ mod tests {
         studio.apply(ViewCommand::PointAt(Some(entry)));
         assert_eq!(studio.apply(ViewCommand::Copy), Some(DriverRequest::CopyMethod(entry)));
         assert_eq!(studio.apply(DriverRequest::CopyJoint(entry)), None);
-        // An engine lane that has its own spring settings copies these.
+        // The copied code of an engine lane with spring settings of its own has these settings.
         let alike = Studio::new(Scene::built_in("alike").unwrap());
-        let told = [0, 3].map(|entry| joint_code(&alike.deck, &alike.viewer, entry).unwrap());
-        assert!(told[0].contains("= 1.5;") && told[1].contains("= 1.50169895;"), "{told:?}");
+        let codes = [0, 3].map(|entry| joint_code(&alike.deck, &alike.viewer, entry).unwrap());
+        assert!(codes[0].contains("= 1.5;") && codes[1].contains("= 1.50169895;"), "{codes:?}");
     }
 }

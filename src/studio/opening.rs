@@ -1,4 +1,7 @@
 //! Opens built-in scenes and scene files. A file may change while its scene runs.
+//!
+//! A person who edits a scene beside the program wants to see the difference at the present moment. So a changed scene
+//! runs to the present tick if its lanes and bodies allow that, and otherwise starts at tick 0.
 
 use std::path::Path;
 

@@ -1,4 +1,8 @@
 //! Jumps of the run, which are restarts, undo and redo. The clock, the plots, the hand and the selection follow them.
+//!
+//! A jump makes everything invalid that was measured on the way: the log of frames, a body in hand, the run beside. All
+//! jumps end in [`follow`], so that none can forget one of these. A restart keeps the old run for undo only if that run
+//! would not simply repeat itself.
 
 use std::sync::Arc;
 

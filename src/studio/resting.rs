@@ -1,5 +1,9 @@
 //! A run that is watched comes to rest at its scene's length, and when all its bodies have blown up. The blow-up can be
 //! watched again.
+//!
+//! A scene makes its point within its length, and after a blow-up the stage is empty. If the run went on by itself, a
+//! person who looks away would miss both. Only a watched run rests: a capture or a test gets every tick that it asks
+//! for.
 
 use super::acting::seek;
 use super::deck::Deck;

@@ -1,5 +1,8 @@
 //! Work beside a studio's run. A driver does this work on separate threads, or between frames. A step of the work can
 //! take longer than a frame.
+//!
+//! A driver may pass the present request with every frame: only a request for something else replaces the work. So
+//! nobody has to decide when the work is out of date.
 
 use std::sync::Arc;
 

@@ -132,7 +132,8 @@ struct Piece {
     is_even: bool,
     /// Direction of the piece: that of the first joint outside the tolerance around its start.
     axis: Option<Vec2>,
-    /// Distance of the last joint along the axis, in points. The next joint must not be nearer.
+    /// Distance of the last joint from the start of the piece along the axis, in points. The next joint must not be
+    /// nearer to the start.
     reach: f32,
     least: Values,
     most: Values,

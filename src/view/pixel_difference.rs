@@ -59,7 +59,7 @@ impl PixelLimits {
     /// For letters whose outlines are filled by other instructions.
     pub const OF_LETTERS: Self = Self { max_channel: 2, max_pixels_percent: 100.0, strays: 0 };
 
-    /// Whether no pixel may differ.
+    /// Whether these bounds allow no difference at all.
     pub fn are_exact(&self) -> bool {
         self.max_channel == 0 && self.strays == 0
     }

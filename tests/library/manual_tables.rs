@@ -94,8 +94,22 @@ fn hold_rows(chapter: &str, head: &str, rows: &[String]) {
     hold_text(&format!("src/manual/{chapter}.md"), &rows.join("\n"), &found.join("\n"), remedy);
 }
 
+/// The rows of the caveats: methods with the same one share a row.
+fn caveat_rows() -> Vec<String> {
+    let mut rows: Vec<(&str, Vec<String>)> = Vec::new();
+    for method in METHODS.iter().filter(|method| !method.caveat.is_empty()) {
+        let id = format!("`{}`", method.id);
+        match rows.iter_mut().find(|(caveat, _)| *caveat == method.caveat) {
+            Some((_, ids)) => ids.push(id),
+            None => rows.push((method.caveat, vec![id])),
+        }
+    }
+    rows.iter().map(|(caveat, ids)| format!("| {} | {caveat} |", ids.join(", "))).collect()
+}
+
 #[test]
 fn the_manual_agrees_with_every_card_of_methods_and_engines() {
+    hold_rows("methods", "| method | beware |", &caveat_rows());
     let (engines, methods): (Vec<&Method>, Vec<&Method>) =
         METHODS.iter().partition(|method| method.is_engine());
     let rows: Vec<String> = methods.into_iter().map(method_row).collect();

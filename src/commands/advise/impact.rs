@@ -1,4 +1,6 @@
 //! The rule for the impacts of a ball that belongs to the recommended method, beside the rule that the scene has.
+//!
+//! A rule of a lower order than the method's costs the method its order, so that the advice names both together.
 
 use serde_json::{Value, json};
 

@@ -32,7 +32,7 @@ pub(super) fn moments(written: &str) -> Result<DVec3, String> {
 fn log(args: &IdentifyArgs, file: &LogFile, x: &str) -> Result<Log, LogError> {
     let [x, v] = [x, "wy"].map(|name| Some(name.to_owned()));
     let options = TableOptions { x, v, ..args.read.table.options() };
-    file.log(&options, args.tick_hz.or(args.step))
+    file.log(&options, args.tick_hz.or(args.step_hz))
 }
 
 /// Whether a log is refused because the column of its coordinate is missing.

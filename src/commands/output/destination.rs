@@ -1,5 +1,8 @@
 //! The destination of one stream of bytes. It is standard output, a device, a pipe, or a file that appears whole or not
 //! at all.
+//!
+//! A file is replaced only when the new one is whole, so that a program that watches it never reads half a table. A
+//! pipe or a device cannot be replaced, and is written to. A link stays, and its target is replaced.
 
 use std::fs::{self, File};
 use std::io::{self, BufWriter, IsTerminal, Write};

@@ -1,4 +1,8 @@
 //! Whether a lane meets a criterion, from a run that ends as soon as the answer is known.
+//!
+//! Unknown is neither met nor missed. One body that fails decides for the lane; a body that is unknown does not,
+//! because a later one may still fail. Modes decide without a run where they can, since they are cheap and hold for all
+//! times.
 
 use super::{Judge, without_truth};
 use crate::bounce_finding::BounceFinding;

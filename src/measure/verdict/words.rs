@@ -1,4 +1,7 @@
 //! The wording of a verdict, which is a word and a number, and the details behind both.
+//!
+//! A person compares lanes by one word and one number, and a table has room for no more. The number is the one behind
+//! the word: the time in which a swing doubles if it grows, the error if it is off.
 
 use std::fmt;
 

@@ -1,4 +1,7 @@
 //! Actions on a race, from the race's journal and by hand.
+//!
+//! An action by hand is performed at once, before the next tick, and the journal has it at this tick for every
+//! repetition. An action without any effect leaves no row, or undo would have a step that does nothing.
 
 use super::journal::{Author, Journal};
 use super::lane::LaneBody;

@@ -1,4 +1,8 @@
 //! Measures how a body approaches a fixed target, by its half-life and its overshoot.
+//!
+//! Only a target at rest counts. Behind a moving one a follower keeps a distance, so that the distance would never
+//! halve. Between ticks the distance is interpolated, or a coarse tick would round the half-life to a whole number of
+//! ticks.
 
 use crate::sim::Stepper;
 

@@ -1,4 +1,7 @@
 //! Lanes of equal cost, in which a cheap method may take more substeps.
+//!
+//! At the same tick rate a method with more evaluations has an advantage, so that a fair race compares equal work. Work
+//! is counted in evaluations, because these are the same on every machine.
 
 use std::ops::ControlFlow;
 

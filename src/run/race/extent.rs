@@ -1,4 +1,8 @@
 //! The range of a motion so far, which is the scale of errors in speed and energy.
+//!
+//! The scale comes from the true motion, so that all lanes have the same one, and a lane that grows cannot make its own
+//! error look small. It is unknown until the motion has been at both ends of its range, because a part of the range
+//! would exaggerate the drift.
 
 use crate::sim::Stepper;
 use crate::sim::bodies::Tumble;

@@ -1,4 +1,8 @@
 //! Draws a body between two ticks.
+//!
+//! A line and a cubic lie between two known states, and so the picture is one tick late. Extrapolation is not late, but
+//! overshoots at every kick, which it cannot foresee. While time stands still the studio draws the raw state, because a
+//! person then looks at a tick.
 
 use super::lane::LaneBody;
 

@@ -1,4 +1,7 @@
 //! A person's edits to a run, and the scene with these edits applied.
+//!
+//! A verdict is on the present settings, because a person edits to see their effect. So an edited parameter has its
+//! last value from the beginning of the judged scene, and the script no longer sets it.
 
 use std::sync::Arc;
 

@@ -1,4 +1,8 @@
 //! Actions on a run in order of ticks, by its scene's script or by a person.
+//!
+//! An action by a person begins another future. It drops that person's later actions, and takes its control from the
+//! script until a restart. The script keeps its other controls, so that a person can steer one while the script sets
+//! the rest. A script's actions keep their times in seconds, and move to other ticks with the rate.
 
 use std::sync::Arc;
 

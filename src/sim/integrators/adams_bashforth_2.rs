@@ -7,6 +7,7 @@ pub(super) const CARD: Method = Method {
     id: "adams-bashforth-2",
     name: "Adams-Bashforth 2",
     about: "second order for one evaluation a step; an undamped spring gains energy, twice as fast as under improved Euler",
+    caveat: SLOW_GROWTH,
     order: 2,
     order_with_drag: 2,
     evaluations: Some(1),

@@ -8,6 +8,7 @@ pub(super) const CARD: Method = Method {
     id: "bdf2",
     name: "BDF2",
     about: "stable at any step, and takes less energy than implicit Euler for the same work",
+    caveat: DAMPS_BY_RATE,
     order: 2,
     order_with_drag: 2,
     restart: Some(

@@ -236,6 +236,8 @@ pub struct Method {
     pub also: &'static [&'static str],
     /// The behaviour of the method in one line, for people.
     pub about: &'static str,
+    /// How the method can hurt a game that takes it, beyond the numbers of this card; empty if in no way.
+    pub caveat: &'static str,
     /// The family, which tells how the method works.
     pub family: Family,
     /// The formula, line by line; ′ marks values at the end of the step. `tests/library/formulas` documents the
@@ -437,6 +439,7 @@ const PLAIN: Method = Method {
     name: "",
     also: &[],
     about: "",
+    caveat: "",
     family: Family::Explicit,
     formula: &[],
     weights: &[],
@@ -465,6 +468,22 @@ const PLAIN: Method = Method {
     own: None,
 };
 
+/// The [caveat](Method::caveat) of explicit methods of order 2. With one step, a swing grows by `|1 + i z - z²/2|`.
+pub(super) const SLOW_GROWTH: &str = "a stiff spring and a long run show the growth: without damping the energy rises by \
+                                      (h ω)⁴ / 4 a step or more";
+
+/// The [caveat](Method::caveat) of implicit methods that damp by their error.
+pub(super) const DAMPS_BY_RATE: &str = "the damping that it adds is its error and depends on the step, so that another \
+                                        tick rate is another feel";
+
+/// The [caveat](Method::caveat) of implicit methods that keep the energy of springs.
+pub(super) const RINGS_ON: &str = "a jolt on a spring that is stiff for the step rings on for long, even if damped; tr-bdf2 \
+                                   and bdf2 take it out";
+
+/// The [caveat](Method::caveat) of compositions with negative pieces.
+pub(super) const STEPS_BACK: &str = "pieces of a step run backwards: look for contacts and events between steps alone; and \
+                                     keep the step fixed, or the energy has no bound";
+
 /// An explicit method, with which an undamped oscillator grows at every step.
 pub(super) const EXPLICIT: Method =
     Method { family: Family::Explicit, stability_limit: Some(0.0), ..PLAIN };
@@ -472,6 +491,7 @@ pub(super) const EXPLICIT: Method =
 /// A symplectic method. The limit is that of one kick and one drift per step.
 pub(super) const SYMPLECTIC: Method = Method {
     family: Family::Symplectic,
+    caveat: "keep the step fixed: steps of changing length leave the energy without a bound",
     symplectic: true,
     reversible: true,
     stability_limit: Some(2.0),
@@ -481,6 +501,8 @@ pub(super) const SYMPLECTIC: Method = Method {
 /// An adaptive method, whose card sets a tolerance.
 pub(super) const ADAPTIVE: Method = Method {
     family: Family::Adaptive,
+    caveat: "the work of a tick depends on the motion, so leave room for a hard one; the length of the next substep is \
+             state, so save it and roll it back with x and v",
     restart: Some("by trying the whole tick as one step"),
     ..PLAIN
 };
@@ -490,12 +512,23 @@ pub(super) const IMPLICIT: Method =
     Method { family: Family::Implicit, evaluation_cost: 4, matrices: 1, ..PLAIN };
 
 /// A method that differentiates the acceleration, by one or two evaluations per coordinate.
-pub(super) const LINEARISED: Method =
-    Method { family: Family::Linearised, evaluation_cost: 2, matrices: 1, ..PLAIN };
+pub(super) const LINEARISED: Method = Method {
+    family: Family::Linearised,
+    caveat: "the slopes of the force are those at the start of the step, which is blind to a contact or a corner within \
+             it",
+    evaluation_cost: 2,
+    matrices: 1,
+    ..PLAIN
+};
 
 /// A listing of the chapter. If forces depend on position only, every listing is semi-implicit Euler.
-pub(super) const AS_PRINTED: Method =
-    Method { family: Family::AsPrinted, symplectic: true, stability_limit: Some(2.0), ..PLAIN };
+pub(super) const AS_PRINTED: Method = Method {
+    family: Family::AsPrinted,
+    caveat: "a listing with its faults, here to be recognised and not to be copied",
+    symplectic: true,
+    stability_limit: Some(2.0),
+    ..PLAIN
+};
 
 /// A first-order follower, whose distance from a still target only shrinks.
 pub(super) const FIRST_ORDER_FOLLOWER: Method = Method {

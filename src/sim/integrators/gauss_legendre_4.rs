@@ -8,6 +8,7 @@ pub(super) const CARD: Method = Method {
     id: "gauss-legendre-4",
     name: "Gauss-Legendre 4",
     about: "stable at any step, accurate, and keeps the energy of springs; the dearest of the implicit ones",
+    caveat: RINGS_ON,
     order: 4,
     order_with_drag: 4,
     matrices: 6,

@@ -7,6 +7,7 @@ pub(super) const CARD: Method = Method {
     id: "implicit-euler",
     name: "Implicit Euler",
     about: "stable at any step, and takes energy: a spring dies away, the faster the coarser the tick",
+    caveat: DAMPS_BY_RATE,
     order: 1,
     order_with_drag: 1,
     source: "Curtiss & Hirschfelder, Integration of stiff equations (1952)",

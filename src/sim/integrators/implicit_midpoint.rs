@@ -7,6 +7,7 @@ pub(super) const CARD: Method = Method {
     id: "implicit-midpoint",
     name: "Implicit midpoint",
     about: "stable at any step and keeps the energy of springs; at a coarse tick they swing too slowly",
+    caveat: RINGS_ON,
     order: 2,
     order_with_drag: 2,
     symplectic: true,

@@ -6,6 +6,7 @@ pub(super) const CARD: Method = Method {
     id: "improved-euler",
     name: "Improved Euler",
     about: "accurate for its cost; an undamped spring gains energy, slowly at a fine tick",
+    caveat: SLOW_GROWTH,
     order: 2,
     order_with_drag: 2,
     evaluations: Some(2),

@@ -6,6 +6,7 @@ pub(super) const CARD: Method = Method {
     id: "lerp-per-frame",
     name: "Lerp per frame",
     about: "a tenth of the way in each frame: four times as fast at 144 frames a second as at 30",
+    caveat: "the same number is another motion on another display; exponential-decay costs the same and has one motion",
     order: 0,
     order_with_drag: 0,
     source: "folklore of game code; R. Pavlov, Improved Lerp Smoothing, Game Developer (2016)",

@@ -8,6 +8,7 @@ pub(super) const CARD: Method = Method {
     name: "Linearly implicit Euler",
     also: &["xpbd", "soft-constraint"],
     about: "implicit Euler for one linear solution a step; on one spring the step of XPBD and of soft constraints",
+    caveat: DAMPS_BY_RATE,
     order: 1,
     order_with_drag: 1,
     source: "Rosenbrock, Some general implicit processes for the numerical solution of differential equations (1963); Baraff & Witkin, Large Steps in Cloth Simulation (1998); Macklin, Müller & Chentanez, XPBD (2016); Catto, Soft Constraints (2011)",

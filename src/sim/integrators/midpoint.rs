@@ -6,6 +6,7 @@ pub(super) const CARD: Method = Method {
     id: "midpoint",
     name: "Midpoint",
     about: "as accurate as improved Euler at the same cost; an undamped spring gains energy as slowly",
+    caveat: SLOW_GROWTH,
     order: 2,
     order_with_drag: 2,
     evaluations: Some(2),

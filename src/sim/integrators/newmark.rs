@@ -8,6 +8,7 @@ pub(super) const CARD: Method = Method {
     id: "newmark",
     name: "Newmark",
     about: "stable at any step and keeps the energy of springs, though not phase-space area where forces are curved",
+    caveat: RINGS_ON,
     order: 2,
     order_with_drag: 2,
     reversible: true,

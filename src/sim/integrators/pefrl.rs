@@ -7,6 +7,7 @@ pub(super) const CARD: Method = Method {
     id: "pefrl",
     name: "PEFRL",
     about: "fourth order and symplectic for four evaluations, more accurate than Yoshida 4; drag leaves it first order",
+    caveat: STEPS_BACK,
     order: 4,
     order_with_drag: 1,
     evaluations: Some(4),

@@ -1,4 +1,8 @@
 //! A wrapper that detects when the caller changes the state of a method, or the forces.
+//!
+//! A memory is of a motion without a jump, and is wrong after one. The wrapper finds a jump of the state by itself, so
+//! that a game may set a body without a word to its method. A jump of the forces it cannot see in their values, which
+//! change in any case; so a system counts its jumps.
 
 use super::failure::{StepFailure, Stepped};
 use super::integrator::{Integrator, Override};

@@ -7,6 +7,7 @@ pub(super) const CARD: Method = Method {
     id: "tr-bdf2",
     name: "TR-BDF2",
     about: "stable at any step and damps stiff motion, like BDF2, but needs no earlier step: it restarts freely",
+    caveat: DAMPS_BY_RATE,
     order: 2,
     order_with_drag: 2,
     source: "Bank, Coughran, Fichtner, Grosse, Rose & Smith, Transient simulation of silicon devices and circuits (1985)",

@@ -8,6 +8,7 @@ pub(super) const CARD: Method = Method {
     id: "yoshida4",
     name: "Yoshida 4",
     about: "fourth order and symplectic for three evaluations; drag leaves it first order",
+    caveat: STEPS_BACK,
     order: 4,
     order_with_drag: 1,
     evaluations: Some(3),

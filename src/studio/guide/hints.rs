@@ -115,33 +115,34 @@ static FOLLOW_UP_HINTS: [FollowUpHint; 8] = [
 pub(crate) struct Hints {
     /// Whether the person has followed the hint of the open scene.
     scene: bool,
-    leads: [bool; FOLLOW_UP_HINTS.len()],
+    followed: [bool; FOLLOW_UP_HINTS.len()],
 }
 
 impl Hints {
     /// Returns the hints for a scene that has just been opened.
     pub(crate) fn of_next_scene(&self) -> Self {
-        Self { scene: false, leads: self.leads }
+        Self { scene: false, followed: self.followed }
     }
 
     /// Marks the hints that this command follows. `hint` is the scene's own hint.
     pub(crate) fn mark_followed(&mut self, command: &Command, hint: Option<&str>) {
         self.scene |=
             hint.and_then(first_key_commands).is_some_and(|asked| asked.contains(&command));
-        for (done, lead) in self.leads.iter_mut().zip(&FOLLOW_UP_HINTS) {
-            *done |= (lead.is_done_by)(command);
+        for (done, hint) in self.followed.iter_mut().zip(&FOLLOW_UP_HINTS) {
+            *done |= (hint.is_done_by)(command);
         }
     }
 
     /// Returns the present hint. It is the scene's own hint, or else the first true hint that the person has not
     /// followed. `outcome` is the verdict on the selected lane.
     pub(crate) fn text(&self, now: &HintContext<'_>, outcome: Option<Outcome>) -> Option<String> {
-        let hint = now.scene.hint.as_deref().filter(|hint| is_so(hint, now));
+        let hint = now.scene.hint.as_deref().filter(|hint| applies(hint, now));
         if let Some(hint) = hint.filter(|_| !self.scene) {
             return Some(hint.to_owned());
         }
-        let mut leads = FOLLOW_UP_HINTS.iter().enumerate().filter(|(index, _)| !self.leads[*index]);
-        let (index, text) = leads.find_map(|(index, lead)| Some((index, (lead.text)(now)?)))?;
+        let mut left =
+            FOLLOW_UP_HINTS.iter().enumerate().filter(|(index, _)| !self.followed[*index]);
+        let (index, text) = left.find_map(|(index, hint)| Some((index, (hint.text)(now)?)))?;
         let is_asked_to_restart = self.scene && index == RESTARTS;
         // The verdict is about a run from the start, which may differ from the run on the stage.
         Some(match reaction(outcome).filter(|_| is_asked_to_restart) {
@@ -154,7 +155,7 @@ impl Hints {
 /// Whether the scene's hint applies now. It does at the scene's own tick rate and values. A hint about the mode or its
 /// lanes also needs the mode in which the scene opens, and in solo mode a hint about a method needs the opening method.
 /// The digits that a hint names must be those of the scene's own lanes.
-fn is_so(hint: &str, now: &HintContext<'_>) -> bool {
+fn applies(hint: &str, now: &HintContext<'_>) -> bool {
     use StageCommand::{Method, MethodBeside, Pick, ToggleArrangement, ToggleRace};
     let asked: Vec<&StageCommand> = keys(hint)
         .flat_map(commands_named)

@@ -1,4 +1,7 @@
 //! Decides from the fits of all candidates which method made a log.
+//!
+//! A wrong name is worse than none: a method is named only if no other that moves the body differently explains the log
+//! as well. Between equal fits the settings that people usually choose win, by a penalty for rare ones.
 
 use std::collections::BTreeSet;
 

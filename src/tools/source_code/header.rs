@@ -39,6 +39,9 @@ pub(super) fn lines(method: &Method, text: &StepText, language: Language) -> Vec
     if !method.keeps_time {
         paragraphs.push("Time: a step may advance by less than h, and does not say so.".into());
     }
+    if !method.caveat.is_empty() {
+        paragraphs.push(format!("Beware: {}.", method.caveat));
+    }
     paragraphs.extend(text.notes().iter().cloned());
     paragraphs.push(String::new());
     let mut functions = text.functions().filter_map(StepBody::function);

@@ -120,7 +120,7 @@ impl TableRow for Row<'_> {
     }
 
     fn colours(&self, palette: &PanelPalette) -> [Color32; 2] {
-        let text = if self.flown.is_some() { palette.text } else { palette.dim };
+        let text = if self.entrant.is_some() { palette.text } else { palette.dim };
         [palette.style(self.studio.entries(), self.spec).0, text]
     }
 

@@ -8,6 +8,8 @@
 # Memory: one for each coordinate. The first step and one of another length restart it by a step
 # of Alexander's two-stage SDIRK, which damps as much and has the same order. Make a new one after
 # a jump of x, v or the forces.
+# Beware: the damping that it adds is its error and depends on the step, so that another tick rate
+# is another feel.
 # Newton's iteration solves each step, with slopes by differences; where it does not converge, x
 # and v become NaN.
 #

@@ -72,6 +72,8 @@ fn a_header_agrees_with_the_card() {
         assert!(!source.has_memory() || header.contains(method.restart.unwrap()), "{header}");
         assert_eq!(header.contains("Tolerance: "), method.tolerance.is_some(), "{header}");
         assert_eq!(header.contains("Time: "), !method.keeps_time, "{header}");
+        assert_eq!(header.contains("Beware: "), !method.caveat.is_empty(), "{header}");
+        assert!(header.contains(method.caveat), "{header}");
         match own("stability") {
             Some(words) => assert!(header.contains(&format!("Stability: {words}.")), "{header}"),
             None => assert_eq!(

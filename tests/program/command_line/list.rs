@@ -45,7 +45,7 @@ fn a_method_is_listed_with_all_of_its_card() {
                         stability_limit tolerance restart keeps_time as_printed only only_because \
                         default_substeps engine_tick_hz engine_version engine_logged \
                         engine_damping_ratio_at_1_hz engine_free_spin \
-                        engine_free_spin_opt_in about source";
+                        engine_free_spin_opt_in about caveat source";
         assert_eq!(keys.join(" "), expected);
         let only = stepped_kinds(method).zip(method.only.map(|only| only.reason));
         let (bodies, reason) = only.unzip();

@@ -20,7 +20,7 @@ pub(super) struct Row<'a> {
     pub(super) entry: MenuIndex,
     pub(super) spec: &'a LaneSpec,
     /// The lane that flies the method, if any.
-    pub(super) flown: Option<&'a Entrant>,
+    pub(super) entrant: Option<&'a Entrant>,
     /// The body whose numbers are shown.
     pub(super) body: usize,
     /// Whether the row is about `body` alone.
@@ -43,16 +43,16 @@ impl<'a> Row<'a> {
         exact: &[Option<f64>],
         named_above: Option<usize>,
     ) -> Vec<Self> {
-        let flown = studio.deck.lane_of(entry);
+        let entrant = studio.deck.lane_of(entry);
         let shown = studio.view().body;
         let count = studio.scene().bodies.len();
         let is_active = entry == studio.active();
-        let is_of_body = studio.mode() == Mode::Solo && flown.is_some() && count > 1;
+        let is_of_body = studio.mode() == Mode::Solo && entrant.is_some() && count > 1;
         let row = |body: usize| Row {
             studio,
             entry,
             spec,
-            flown,
+            entrant,
             body,
             is_of_body,
             is_first: !is_of_body || body == 0,
@@ -69,7 +69,7 @@ impl<'a> Row<'a> {
     /// Returns the verdict of the row.
     pub(super) fn verdict_text(&self) -> VerdictText {
         let named = (self.is_of_body.then_some(self.body), self.named_above);
-        verdict::text_of(self.studio, self.entry, self.flown, named)
+        verdict::text_of(self.studio, self.entry, self.entrant, named)
     }
 
     /// Returns the further findings of the verdict.
@@ -103,7 +103,7 @@ impl<'a> Row<'a> {
     }
 
     fn flown_body(&self) -> Option<&'a LaneBody> {
-        Some(&self.flown?.lane.bodies()[self.body])
+        Some(&self.entrant?.lane.bodies()[self.body])
     }
 
     /// Whether there is a truth to compare the body with.
@@ -117,7 +117,7 @@ impl<'a> Row<'a> {
 
     /// Returns the largest values of the body so far, if a lane flies the method.
     fn peaks(&self) -> Option<Peaks> {
-        Some(self.studio.past().histories(self.flown?.id)[self.body].peaks())
+        Some(self.studio.past().histories(self.entrant?.id)[self.body].peaks())
     }
 
     /// Returns the value, or 0 if the value is only rounding at this scale.
@@ -200,7 +200,7 @@ impl<'a> Row<'a> {
         if body.is_some_and(|body| body.halted().is_some()) {
             return None;
         }
-        let substeps = self.flown.map_or(self.spec.substeps, |flown| flown.lane.substeps());
+        let substeps = self.entrant.map_or(self.spec.substeps, |entrant| entrant.lane.substeps());
         let of_card = self.spec.method.evaluations_per_tick(substeps).map(f64::from);
         let of_last_tick = || body.map(|body| body.evaluations_of_last_tick() as f64);
         of_card.or_else(|| of_last_tick().filter(|&count| count > 0.0))

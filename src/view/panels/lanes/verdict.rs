@@ -11,14 +11,14 @@ use crate::studio::Studio;
 pub(super) fn text_of(
     studio: &Studio,
     entry: MenuIndex,
-    flown: Option<&Entrant>,
+    entrant: Option<&Entrant>,
     (body, named_above): (Option<usize>, Option<usize>),
 ) -> VerdictText {
     if studio.viewer.is_asked() {
         let waits = vec!["after your prediction".into()];
         return VerdictText { sign: None, is_current: true, wordings: waits, rank: None };
     }
-    let halts = flown.into_iter().flat_map(|entrant| entrant.lane.halts());
+    let halts = entrant.into_iter().flat_map(|entrant| entrant.lane.halts());
     let mut halts: Vec<_> = halts.filter(|halt| body.is_none_or(|b| b == halt.body)).collect();
     // The displayed body comes first, because there may not be room for all halts.
     halts.sort_by_key(|halt| halt.body != studio.view().body);
@@ -29,7 +29,7 @@ pub(super) fn text_of(
             true => format!(" ({})", studio.scene().bodies[body].name),
             false => String::new(),
         };
-        let bodies = flown.map_or(&[][..], |entrant| entrant.lane.bodies());
+        let bodies = entrant.map_or(&[][..], |entrant| entrant.lane.bodies());
         let all = halts.iter().map(|halt| {
             let name = &studio.scene().bodies[halt.body].name;
             format!("{name} {}", bodies[halt.body].fate().unwrap_or_default())
