@@ -14,6 +14,7 @@ use super::by_spin::follow_spin;
 use super::change::MotionChange;
 use super::chase_finding::ChaseFinding;
 use super::criterion::TOLERANCE;
+use super::frequency;
 use super::judged_run::{JudgedRun, MAX_WORK, Until, follow};
 use super::modes::Modes;
 use super::pace::Pace;
@@ -220,6 +221,12 @@ impl Judge {
         let are_swings_known = by_modes.is_some() && truth.inputs.is_empty();
         let MotionChange { long_term, within, energy_change, frequency_error, early_s, width } =
             by_modes.unwrap_or_else(|| MotionChange::of_run(truth, run, self.horizon_s));
+        // Modes know only the motion after the last input, and a lead begins before it.
+        let early_s = if truth.last_input_s() > 0.0 {
+            early_s.and(frequency::frequency_error(truth, run)).and_then(|found| found.early_s)
+        } else {
+            early_s
+        };
         // A motion that grew once but stays bounded counts as bounded. A motion that has yet to grow does not.
         let change = match (within, long_term.is_bounded) {
             (Trend::Grows, Some(true)) => Trend::None,

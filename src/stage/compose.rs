@@ -338,7 +338,8 @@ impl BodyCell<'_> {
             if self.lanes.len() <= MAX_NUMBERED {
                 // In solo mode, a body has a number only if a key picks its method.
                 if studio.mode() == Mode::Race || entry < DIGITS {
-                    let before = studio.deck.switched_from(lane).filter(|it| *it < DIGITS);
+                    let before = studio.deck.switched_from(lane);
+                    let before = before.filter(|it| *it < DIGITS && *it != entry);
                     let before = before.map_or(String::new(), |it| format!("{} → ", it + 1));
                     shown.number(picture, format!("{before}{}", entry + 1), colour);
                 }

@@ -50,6 +50,21 @@ fn agreeing_with_a_failed_truth_does_not_count() {
 }
 
 #[test]
+fn a_lead_after_a_late_kick_includes_the_lead_before_it() {
+    // The lead at the last crossing by the columns of `trace`, from which 0.18 s are left.
+    let kicked = "[[spring]]\nmass_kg = 1\nstiffness_n_per_m = 39.47841760435743\n[[command]]\nat_s = 10\nkick = 1.0";
+    for (id, lead_s) in [
+        ("improved-euler", 0.0335),
+        ("semi-implicit-euler", 0.0151),
+        ("implicit-midpoint", -0.0163),
+    ] {
+        let found = verdict(&scene(20.0, kicked), id, 60);
+        let early_s = found.comparison().and_then(|it| it.early_s).expect("a lead");
+        assert!((early_s / lead_s - 1.0).abs() < 0.05, "{id}: {early_s} s, not {lead_s}");
+    }
+}
+
+#[test]
 fn a_verdict_describes_the_motion_and_not_its_faintest_mode() {
     // Runge-Kutta takes the fastest of the chain's modes within seconds, and a seventh of its energy in ten minutes.
     let found = verdict(&built_in("chain"), "rk4", 60);

@@ -162,7 +162,12 @@ impl Verdict {
         if let Some(early_s) = found.early_s {
             let (way, quantity) = if early_s < 0.0 { ("late", "delay") } else { ("early", "lead") };
             let late_s = early_s.abs();
-            let text = format!("{} {way} after {horizon}", short_duration(late_s));
+            let when = if self.starts_at_s > 0.0 {
+                format!("at {}", self.moment(self.horizon_s))
+            } else {
+                format!("after {horizon}")
+            };
+            let text = format!("{} {way} {when}", short_duration(late_s));
             return VerdictNumber::new(quantity, late_s, "s", text);
         }
         let of_mode = match self.long_term.measure {
