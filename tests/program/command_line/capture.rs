@@ -3,19 +3,7 @@
 use std::fs;
 use std::path::Path;
 
-use super::{regatta, run_in, stderr};
-
-pub(crate) fn names(directory: &Path) -> Vec<String> {
-    let entries = fs::read_dir(directory).unwrap();
-    let mut names: Vec<_> =
-        entries.map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect();
-    names.sort();
-    names
-}
-
-pub(crate) fn dimensions(picture: &Path) -> (u32, u32) {
-    image::open(picture).unwrap().into_rgba8().dimensions()
-}
+use super::{dimensions, names, regatta, run_in, stderr};
 
 #[test]
 fn the_same_command_makes_the_same_bytes() {

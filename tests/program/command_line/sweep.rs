@@ -11,8 +11,7 @@ use regatta::sim::integrators::{GENERAL_METHODS, method};
 use serde_json::Value;
 
 use super::advise::ON_SPRING;
-use super::capture::names;
-use super::{refusal, regatta, run_in, stderr, stdout_of};
+use super::{names, refusal, regatta, run_in, stderr, stdout_of};
 
 pub(crate) const HEADER: &str = "scene,body,method,tick_hz,seconds,error,energy_drift_percent,\
                       evaluations_per_s,ns_per_s,verdict,halted,half_life_ms,overshoot_percent,parameter,value";
