@@ -68,11 +68,17 @@ pub(crate) fn start(directory: &Path, arguments: &str) -> Child {
     command.stdout(Stdio::null()).stderr(Stdio::piped()).spawn().unwrap()
 }
 
+#[cfg(unix)]
+fn send(signal: &str, child: &Child) {
+    // By the shell, for not every system has `kill` as a program.
+    let sent = Command::new("sh").args(["-c", &format!("kill {signal} {}", child.id())]).status();
+    assert!(sent.unwrap().success());
+}
+
 /// Sends a signal to the program, and returns its output.
 #[cfg(unix)]
 pub(crate) fn ended_by(signal: &str, child: Child) -> Output {
-    let sent = Command::new("kill").args([signal, &child.id().to_string()]).status();
-    assert!(sent.unwrap().success());
+    send(signal, &child);
     child.wait_with_output().unwrap()
 }
 
@@ -82,8 +88,7 @@ pub(crate) fn ended_by(signal: &str, child: Child) -> Output {
 pub(crate) fn work_after(signal: &str, child: Child) -> (Output, Duration) {
     let id = child.id();
     let before = processor::time(id);
-    let sent = Command::new("kill").args([signal, &id.to_string()]).status();
-    assert!(sent.unwrap().success());
+    send(signal, &child);
     while !processor::has_ended(id) {
         std::thread::sleep(Duration::from_millis(1));
     }
