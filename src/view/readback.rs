@@ -33,8 +33,8 @@ pub struct Readback {
 }
 
 impl Readback {
-    /// Submits `commands`, waits for all work so far, and replaces `rows` by the pixels of the texture, which has the format
-    /// [`Gpu::OFFSCREEN_FORMAT`] and may be copied from: top row first, no padding.
+    /// Submits `commands`, waits for all work so far, and replaces `rows` by the pixels of the texture: top row first,
+    /// no padding. The texture has the format [`Gpu::OFFSCREEN_FORMAT`], and may be copied from.
     ///
     /// # Errors
     /// A [`ReadbackError`]; `rows` is then unspecified.

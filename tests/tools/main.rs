@@ -1,5 +1,5 @@
-//! Tests that want more than a compiler of Rust: compilers and interpreters of other languages, readers of pictures and films, a
-//! disk to mount, a graphics device.
+//! Tests that want more than a compiler of Rust: compilers and interpreters of other languages, readers of pictures
+//! and films, a disk to mount, a graphics device.
 //!
 //! `main` has the table of the tests. One whose tool is missing is reported as ignored.
 

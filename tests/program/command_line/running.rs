@@ -82,8 +82,7 @@ pub(crate) fn ended_by(signal: &str, child: Child) -> Output {
     child.wait_with_output().unwrap()
 }
 
-/// The same with the work of all processors from the signal to the end. It is no more on a busy machine, of which a test can
-/// say nothing by a clock.
+/// The same with the work of all processors from the signal to the end, which is no more on a busy machine.
 #[cfg(target_os = "linux")]
 pub(crate) fn work_after(signal: &str, child: Child) -> (Output, Duration) {
     let id = child.id();
