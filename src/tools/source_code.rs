@@ -4,7 +4,7 @@
 //!
 //! A method is written once, in `assets/methods`, in the language in which a person writes a step of their own; see
 //! [`StepText`]. The printer translates its lines one by one with the table of dialects, and makes the header from the
-//! method's card. `tests/library/source_code` runs the printed functions and compares their steps with the method's.
+//! method's card. `tests/tools/source_code` runs the printed functions and compares their steps with the method's.
 //!
 //! Beside those of a step, a source has these lines, which only its header uses:
 //!

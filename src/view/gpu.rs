@@ -68,7 +68,7 @@ pub struct Gpu {
 
 impl Gpu {
     /// Format of the targets of a device without a surface: gamma space, red first.
-    pub(super) const OFFSCREEN_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
+    pub const OFFSCREEN_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
 
     /// Creates a device that draws into textures only. It needs no display.
     ///
@@ -165,7 +165,7 @@ impl Gpu {
         });
         let (device, queue) = request.await.map_err(|error| error.to_string())?;
         device.on_uncaptured_error(Arc::new(|error| log::error!("graphics: {error}")));
-        let pipelines = Pipelines::new(&device, format).await.map_err(|error| cause(&error))?;
+        let pipelines = pipelines(&device, format).await?;
 
         let lost = Arc::new(AtomicBool::new(false));
         device.set_device_lost_callback({
@@ -176,6 +176,14 @@ impl Gpu {
             }
         });
         Ok(Self { device, queue, adapter, info, max_texture_side_px, pipelines, lost })
+    }
+
+    /// Checks that the device can draw frames on textures of this format.
+    ///
+    /// # Errors
+    /// The device's refusal, on one line.
+    pub async fn draws_on(&self, format: wgpu::TextureFormat) -> Result<(), String> {
+        pipelines(&self.device, format).await.map(drop)
     }
 
     /// Whether the device is permanently lost: driver reset, unplugged, destroyed. Recovery needs a new [`Gpu`], and
@@ -192,6 +200,13 @@ impl Gpu {
 pub(super) fn instance(mut descriptor: wgpu::InstanceDescriptor) -> wgpu::Instance {
     descriptor.flags.remove(wgpu::InstanceFlags::VALIDATION_INDIRECT_CALL);
     wgpu::Instance::new(descriptor)
+}
+
+async fn pipelines(
+    device: &wgpu::Device,
+    format: wgpu::TextureFormat,
+) -> Result<Pipelines, String> {
+    Pipelines::new(device, format).await.map_err(|error| cause(&error))
 }
 
 /// The innermost error, on one line. The outer ones only name the call of wgpu that failed.
@@ -231,7 +246,6 @@ fn rank(info: &wgpu::AdapterInfo) -> (u8, u8) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::tests::testing::gpu_or_skip;
 
     fn info(kind: wgpu::DeviceType, backend: wgpu::Backend) -> wgpu::AdapterInfo {
         wgpu::AdapterInfo::new(kind, backend)
@@ -269,27 +283,5 @@ mod tests {
         assert!(error.starts_with("no usable graphics adapter: "), "{error}");
         assert!(error.contains("gl offered none"), "{error}");
         assert!(error.ends_with("take --renderer cpu"), "{error}");
-    }
-
-    #[test]
-    fn an_uncaptured_error_does_not_end_the_program() {
-        let Some(gpu) = gpu_or_skip("an_uncaptured_error_does_not_end_the_program") else { return };
-        drop(gpu.device.create_buffer(&wgpu::BufferDescriptor {
-            label: None,
-            size: u64::MAX,
-            usage: wgpu::BufferUsages::VERTEX,
-            mapped_at_creation: false,
-        }));
-        assert!(!gpu.is_lost());
-    }
-
-    #[test]
-    fn a_refused_pipeline_is_an_error_of_one_line() {
-        let Some(gpu) = gpu_or_skip("a_refused_pipeline_is_an_error_of_one_line") else { return };
-        let made = |format| pollster::block_on(Pipelines::new(&gpu.device, format));
-        assert!(made(wgpu::TextureFormat::Bgra8Unorm).is_ok());
-        // No device draws colours on depths.
-        let refusal = cause(&made(wgpu::TextureFormat::Depth32Float).unwrap_err());
-        assert!(refusal.contains("Depth32Float") && !refusal.contains('\n'), "{refusal}");
     }
 }

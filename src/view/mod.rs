@@ -57,7 +57,7 @@ pub use keyboard::{Meaning, Modifiers, bound_key, command_of};
 pub use offscreen_renderer::{FrameSizeError, OffscreenRenderer, PreparedFrame};
 pub use panels::Panels;
 pub use pixel_difference::{PixelDifference, PixelLimits};
-pub use readback::ReadbackError;
+pub use readback::{Readback, ReadbackError};
 pub use screen::Screen;
 
 /// The values of the selected instrument, as lines of comma-separated text under a heading; `None` if it has no

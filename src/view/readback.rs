@@ -28,17 +28,17 @@ pub enum ReadbackError {
 
 /// Reads textures back, and reuses its buffer from frame to frame.
 #[derive(Debug, Default)]
-pub(super) struct Readback {
+pub struct Readback {
     spare: Option<wgpu::Buffer>,
 }
 
 impl Readback {
-    /// Submits `commands`, waits for all work so far, and replaces `rows` by the pixels of the texture, which is one of
-    /// [`Offscreen`](super::offscreen_renderer::Offscreen): top row first, no padding.
+    /// Submits `commands`, waits for all work so far, and replaces `rows` by the pixels of the texture: top row first,
+    /// no padding. The texture has the format [`Gpu::OFFSCREEN_FORMAT`], and may be copied from.
     ///
     /// # Errors
     /// A [`ReadbackError`]; `rows` is then unspecified.
-    pub(super) fn read(
+    pub fn read(
         &mut self,
         gpu: &Gpu,
         commands: Option<wgpu::CommandBuffer>,
@@ -111,55 +111,5 @@ fn wait_until_mapped(
             Err(wgpu::PollError::Timeout) | Ok(_) => Err(ReadbackError::Timeout),
             Err(error) => Err(ReadbackError::Unreadable { reason: error.to_string() }),
         },
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::tests::testing::gpu_or_skip;
-
-    /// A texture holding `rows`, uploaded rather than drawn.
-    fn uploaded(gpu: &Gpu, [width, height]: [u32; 2], rows: &[u8]) -> wgpu::Texture {
-        let size = wgpu::Extent3d { width, height, depth_or_array_layers: 1 };
-        let texture = gpu.device.create_texture(&wgpu::TextureDescriptor {
-            label: None,
-            size,
-            mip_level_count: 1,
-            sample_count: 1,
-            dimension: wgpu::TextureDimension::D2,
-            format: Gpu::OFFSCREEN_FORMAT,
-            usage: wgpu::TextureUsages::COPY_DST | wgpu::TextureUsages::COPY_SRC,
-            view_formats: &[],
-        });
-        let layout = wgpu::TexelCopyBufferLayout {
-            offset: 0,
-            bytes_per_row: Some(4 * width),
-            rows_per_image: None,
-        };
-        gpu.queue.write_texture(texture.as_image_copy(), rows, layout, size);
-        texture
-    }
-
-    #[test]
-    fn pixels_come_back_exactly_at_odd_widths() {
-        let Some(gpu) = gpu_or_skip("pixels_come_back_exactly_at_odd_widths") else { return };
-        let mut readback = Readback::default();
-        let mut rows = Vec::new();
-        for [width, height] in [[1, 1], [63, 5], [64, 5], [65, 5], [257, 3]] {
-            let sent: Vec<u8> = (0..4 * width * height).map(|i| (i * 7 % 251) as u8).collect();
-            let texture = uploaded(&gpu, [width, height], &sent);
-            readback.read(&gpu, None, &texture, &mut rows).unwrap();
-            assert_eq!(rows, sent, "{width}x{height}");
-        }
-    }
-
-    #[test]
-    fn reading_from_a_lost_device_is_an_error() {
-        let Some(gpu) = gpu_or_skip("reading_from_a_lost_device_is_an_error") else { return };
-        let texture = uploaded(&gpu, [1, 1], &[0; 4]);
-        gpu.device.destroy();
-        let error = Readback::default().read(&gpu, None, &texture, &mut Vec::new()).unwrap_err();
-        assert!(matches!(error, ReadbackError::DeviceLost), "{error}");
     }
 }

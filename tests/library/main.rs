@@ -13,7 +13,6 @@ mod chapter;
 #[cfg(feature = "cli")]
 mod ci_recipe;
 mod clouds;
-mod compilers;
 mod conformance;
 mod custom;
 mod dialects;
@@ -44,7 +43,6 @@ mod known_motions;
 mod laws;
 mod layouts;
 mod looks_right;
-mod loop_snippets;
 mod manual_tables;
 mod misuse;
 mod nets;

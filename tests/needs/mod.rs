@@ -10,7 +10,7 @@ use libtest_mimic::{Arguments, Trial};
 /// Something that a machine may lack.
 #[derive(Clone, Copy)]
 pub(crate) struct Need {
-    /// Debian's package of it.
+    /// Debian's package of it, and who else has to bring it.
     package: &'static str,
     is_met: fn() -> bool,
 }
@@ -74,13 +74,20 @@ impl Tests {
     }
 }
 
-/// Adds the tests of modules: `needs => module { test, … }`.
+/// Adds the tests of modules, or of modules of a module: `needs => module { test, … }`.
 macro_rules! tests {
     ($to:ident: $($needs:expr => $module:ident { $($name:ident),+ $(,)? })+) => {
         $($($to.add(
             concat!(stringify!($module), "::", stringify!($name)),
             &$needs,
             $module::$name,
+        );)+)+
+    };
+    ($to:ident of $outer:ident: $($needs:expr => $module:ident { $($name:ident),+ $(,)? })+) => {
+        $($($to.add(
+            concat!(stringify!($outer), "::", stringify!($module), "::", stringify!($name)),
+            &$needs,
+            $outer::$module::$name,
         );)+)+
     };
 }

@@ -10,3 +10,6 @@ mod packaging;
 #[cfg(unix)]
 #[path = "../printed/mod.rs"]
 mod printed;
+#[cfg(target_os = "linux")]
+#[path = "../processor/mod.rs"]
+mod processor;

@@ -177,8 +177,6 @@ pub(crate) fn the_guide_opens_a_waiting_stop_and_escape_returns_to_the_run() {
 }
 
 pub(crate) fn slow_loops_do_not_block_the_window() {
-    /// Long for a title, and far shorter than these loops take: millions of steps of a chain.
-    const SOON: Duration = Duration::from_secs(3);
     let folder = tempfile::TempDir::new().unwrap();
     let scene = folder.path().join("long.toml");
     let chain = std::fs::read_to_string("assets/scenes/chain.toml").unwrap();
@@ -191,10 +189,11 @@ pub(crate) fn slow_loops_do_not_block_the_window() {
     desk.press("space");
     let loops = |hz: u32| format!("Regatta - long.toml - loop lab: Fixed - edge - {hz} Hz");
     for (key, title) in [("l", loops(10_000)), ("bracketleft", loops(1000))] {
-        let start = Instant::now();
         desk.press(key);
         desk.titled(&title);
-        assert!(start.elapsed() < SOON, "{key}: {:?}", start.elapsed());
+        // Millions of steps of a chain, long after the title.
+        let load = desk.load_over(Duration::from_millis(500));
+        assert!(load > 0.1, "{key}: {load} of a core");
     }
     desk.quit();
 }

@@ -30,6 +30,9 @@ mod needs;
 #[cfg(target_os = "linux")]
 mod opening;
 #[cfg(target_os = "linux")]
+#[path = "../processor/mod.rs"]
+mod processor;
+#[cfg(target_os = "linux")]
 mod program;
 #[cfg(target_os = "linux")]
 mod shape;
@@ -94,7 +97,7 @@ fn main() -> std::process::ExitCode {
         DISPLAY => life {
             a_window_opens_by_the_processor,
             the_program_ends_after_its_seconds_or_with_its_window,
-            without_the_requested_adapter_the_program_ends_quickly_with_a_message,
+            without_the_requested_adapter_the_program_ends_with_a_message,
             a_display_of_too_few_colours_ends_the_program_in_one_plain_line,
             a_window_opens_in_silence_beside_traces_of_wayland,
             an_unmapped_window_runs_on_in_real_time,

@@ -5,6 +5,8 @@ use std::path::Path;
 use std::process::{Child, Command, ExitStatus, Stdio};
 use std::time::Duration;
 
+use crate::processor;
+
 /// The program running.
 pub(crate) struct Program(Child);
 
@@ -60,12 +62,7 @@ impl Program {
     }
 
     pub(crate) fn processor_time(&self) -> Duration {
-        let stat = std::fs::read_to_string(format!("/proc/{}/stat", self.0.id())).unwrap();
-        // The name, in brackets, may hold spaces.
-        let (_, fields) = stat.rsplit_once(") ").unwrap();
-        let ticks = fields.split(' ').skip(11).take(2).map(|field| field.parse::<u64>().unwrap());
-        // Linux reports a hundred of them per second, independent of the kernel's own rate.
-        Duration::from_millis(10 * ticks.sum::<u64>())
+        processor::time(self.0.id())
     }
 
     /// The memory that it uses and shares with no file, in MB.
@@ -77,11 +74,7 @@ impl Program {
 
     /// Whether all of its threads wait for something.
     pub(crate) fn sleeps(&self) -> bool {
-        let mut threads = std::fs::read_dir(format!("/proc/{}/task", self.0.id())).unwrap();
-        threads.all(|thread| {
-            let stat = std::fs::read_to_string(thread.unwrap().path().join("stat"));
-            stat.is_ok_and(|stat| stat.rsplit_once(") ").is_some_and(|(_, s)| s.starts_with('S')))
-        })
+        processor::sleeps(self.0.id())
     }
 
     /// Stops the program for `span`, like a busy machine does.

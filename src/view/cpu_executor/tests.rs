@@ -3,10 +3,10 @@ use egui::{Pos2, TextureOptions, pos2};
 
 use super::*;
 use crate::drawing::{Draw, Mesh, Place};
-use crate::scene::{SCENES, Scene};
+use crate::scene::Scene;
 use crate::studio::{StageCommand, Studio};
-use crate::tests::testing::{Pixels, executor, gpu_or_skip, paint, paint_on};
-use crate::{FrameRenderer, GpuExecutor, PixelDifference, PixelLimits};
+use crate::tests::testing::{Pixels, executor, paint};
+use crate::{FrameRenderer, PixelDifference};
 
 fn one_place(size_px: [u32; 2]) -> ScreenTransform {
     let [width, height] = size_px.map(|side| side as f32);
@@ -229,27 +229,4 @@ fn other_letters_change_only_the_pixels_that_are_known_to_have_letters() {
     let letters = has_letters.iter().filter(|&&has| has).count();
     assert!((1_000..20_000).contains(&letters), "{letters}");
     assert!(within.beyond(0) > letters / 2, "{} of {letters}", within.beyond(0));
-}
-
-#[test]
-fn processor_and_device_draw_every_scene_almost_alike() {
-    let test = "processor_and_device_draw_every_scene_almost_alike";
-    let Some(gpu) = gpu_or_skip(test) else { return };
-    let size_px = [640, 360];
-    for scene in SCENES {
-        let mut on_device = GpuExecutor::new(&gpu);
-        let mut executor = executor();
-        for drawing in race(scene.name, size_px, 0.7, 4) {
-            let one = paint(&mut executor, &drawing);
-            let other = paint_on(&gpu, &mut on_device, &drawing);
-            let difference = PixelDifference::between(&one.rows, &other.rows, |_| true);
-            let is_alike = PixelLimits::OF_EXECUTORS.allow(&difference);
-            assert!(is_alike, "{}: worst {}", scene.name, difference.worst());
-            let pixels = one.rows.len() / 4;
-            for (difference_by, most) in [(1, pixels / 10_000), (2, pixels / 100_000)] {
-                let beyond = difference.beyond(difference_by);
-                assert!(beyond <= most, "{}: {beyond} by more than {difference_by}", scene.name);
-            }
-        }
-    }
 }

@@ -1,11 +1,9 @@
 use super::*;
 use crate::chart::{self, LineStyle, Primitive, ScreenCurve};
-use crate::offscreen_renderer::Offscreen;
 use crate::scene::Scene;
 use crate::stage::{Fill, Picture, Shape};
 use crate::studio::StageCommand;
-use crate::tests::testing::{EVERYWHERE, Pixels, executor, gpu_or_skip, paint, paint_on};
-use crate::{Gpu, GpuExecutor, RendererChoice};
+use crate::tests::testing::{EVERYWHERE, Pixels, executor, paint};
 
 /// Longest side of a texture.
 const SIDE_PX: u32 = 4096;
@@ -102,27 +100,6 @@ fn a_curve_is_drawn_dashed_and_clipped() {
 fn the_same_input_makes_the_same_frame() {
     let frame = || draw([120, 90], 1.5, &red_everywhere()).rows;
     assert_eq!(frame(), frame());
-}
-
-#[test]
-fn a_lost_device_does_not_panic_and_a_new_one_draws() {
-    let test = "a_lost_device_does_not_panic_and_a_new_one_draws";
-    let Some(gpu) = gpu_or_skip(test) else { return };
-    let drawing = || {
-        let mut renderer = FrameRenderer::new(SIDE_PX);
-        let input = egui::RawInput::default();
-        let layout = renderer.lay_out_with([64, 64], 1.0, input, |ui| show(ui, &red_everywhere()));
-        renderer.paint([64, 64], layout).drawing
-    };
-    let target = Offscreen::new(&gpu, [64, 64]).unwrap();
-    let mut executor = GpuExecutor::new(&gpu);
-    gpu.device.destroy();
-    assert!(executor.encode(&gpu, &drawing(), &target.view).is_none());
-    assert!(gpu.is_lost());
-
-    let gpu = pollster::block_on(Gpu::headless(RendererChoice::Gpu)).unwrap();
-    let mut executor = GpuExecutor::new(&gpu);
-    assert_eq!(paint_on(&gpu, &mut executor, &drawing()).at(60, 60), [255, 0, 0, 255]);
 }
 
 #[test]

@@ -1,28 +1,17 @@
-//! Shared test code: drawn pixels, frames of panels, and a graphics device.
+//! Shared test code: drawn pixels, and frames of panels.
 
-use std::io::{self, Write};
 use std::num::NonZero;
 
 use egui::epaint::TextShape;
 use egui::{Context, Event, Modifiers, PointerButton, Pos2, RawInput, Ui, Vec2};
 
 use crate::backdrop::BackdropFinder;
-use crate::offscreen_renderer::Offscreen;
 use crate::panels::RING;
-use crate::readback::Readback;
 use crate::stage::{Picture, Rect};
 use crate::stage_area::Stage;
 use crate::stage_area::draw_stage;
 use crate::studio::{Command, Studio};
-use crate::{CpuExecutor, Drawing, Gpu, GpuExecutor, RendererChoice, panels, theme};
-
-/// A graphics device. Without one, writes the name of the skipped test and the reason to stderr.
-pub(crate) fn gpu_or_skip(test: &str) -> Option<Gpu> {
-    pollster::block_on(Gpu::headless(RendererChoice::Gpu))
-        // Not `eprintln!`, which the test runner hides when a test passes.
-        .inspect_err(|error| drop(writeln!(io::stderr(), "SKIPPED {test}: {error}")))
-        .ok()
-}
+use crate::{CpuExecutor, Drawing, panels, theme};
 
 /// Tightly packed RGBA rows.
 pub(crate) struct Pixels {
@@ -76,16 +65,6 @@ pub(crate) fn stage_alone(
     let mut drawing = Drawing { size_px, ..Drawing::default() };
     draw_stage(&mut drawing, backdrops, Stage { rect, picture: picture.clone() }, scale);
     drawing
-}
-
-/// The pixels of a drawing from a device.
-pub(crate) fn paint_on(gpu: &Gpu, executor: &mut GpuExecutor, drawing: &Drawing) -> Pixels {
-    let target = Offscreen::new(gpu, drawing.size_px).expect("tests ask for small targets");
-    let commands = executor.encode(gpu, drawing, &target.view);
-    let mut rows = Vec::new();
-    let read = Readback::default().read(gpu, commands, &target.texture, &mut rows);
-    read.expect("a fresh target can be read");
-    Pixels { size_px: drawing.size_px, rows }
 }
 
 /// A clip rectangle that clips nothing.

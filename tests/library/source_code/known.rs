@@ -7,23 +7,23 @@ use regatta::tools::source_code::MethodSource;
 
 /// The acceleration of a run.
 pub(crate) struct Force {
-    pub(crate) name: &'static str,
     pub(crate) a: fn(f64, f64) -> f64,
     /// The same in a syntax that every language shares.
+    #[allow(dead_code, reason = "tests/tools writes it in each of them; tests/library has none")]
     pub(crate) text: &'static str,
 }
 
 macro_rules! force {
-    ($name:literal, |$x:ident, $v:ident| $a:expr) => {
-        Force { name: $name, a: |$x, $v| $a, text: stringify!($a) }
+    (|$x:ident, $v:ident| $a:expr) => {
+        Force { a: |$x, $v| $a, text: stringify!($a) }
     };
 }
 
 pub(crate) const FORCES: [Force; 3] = [
-    force!("a spring with drag", |x, v| -40.0 * x - 1.5 * v),
-    force!("an undamped spring", |x, v| -90.0 * x + 0.0 * v),
-    force!("a pendulum", |x, v| -30.0 * (x - x * x * x / 6.0 + x * x * x * x * x / 120.0)
-        - 0.1 * v),
+    // A spring with drag, one without, and a pendulum.
+    force!(|x, v| -40.0 * x - 1.5 * v),
+    force!(|x, v| -90.0 * x + 0.0 * v),
+    force!(|x, v| -30.0 * (x - x * x * x / 6.0 + x * x * x * x * x / 120.0) - 0.1 * v),
 ];
 /// Steps of a run.
 pub(crate) const STEPS: u32 = 200;
@@ -67,6 +67,7 @@ pub(crate) const SETTINGS: [f64; 3] = [40.0, 1.5, 0.3];
 pub(crate) const FORCE: f64 = 2.5;
 pub(crate) const SUBSTEPS: u32 = 3;
 /// Where a target is at time t.
+#[allow(dead_code, reason = "as the text of a force")]
 pub(crate) const TARGET: &str = "2.0 - 0.5 * t";
 
 fn target(t: f64) -> f64 {
@@ -104,11 +105,6 @@ impl System for Run {
         }
         true
     }
-}
-
-/// The states that the method of the table passes through.
-pub(crate) fn steps(method: &Method, case: &Case) -> Vec<[f64; 2]> {
-    steps_as(method, method, case)
 }
 
 /// The states that `stepped` passes through, with the body and the substeps of the method `like`.

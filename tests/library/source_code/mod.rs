@@ -1,14 +1,9 @@
-//! The generated source code matches the methods, step by step, in each language with a compiler.
+//! The generated source code as a text; `tests/tools` compiles and runs it.
 
 #![cfg(feature = "lab")]
 
-mod compiled;
 mod copying;
-mod drivers;
 mod gdscript;
 mod held;
 pub(crate) mod known;
-mod scripts;
-mod spin;
 mod text;
-mod words;

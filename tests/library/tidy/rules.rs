@@ -9,14 +9,12 @@ const MAX_LINES: usize = 600;
 /// Names for "did not think".
 const NO_NAMES: [&str; 6] = ["utils", "util", "common", "helpers", "helper", "misc"];
 
-/// The files that name a standard stream: those that print, with signs for control characters, and tests that say why they
-/// are skipped.
-const PRINTERS: [&str; 5] = [
+/// The files that name a standard stream: those that print, with signs for control characters.
+const PRINTERS: [&str; 4] = [
     "src/commands/output/destination.rs",
     "src/commands/pipeline.rs",
     "src/commands/terminal.rs",
     "src/main.rs",
-    "src/view/tests/testing.rs",
 ];
 const STREAMS: [&str; 6] =
     ["io::stdout()", "io::stderr()", "println!", "print!", "eprintln!", "eprint!"];

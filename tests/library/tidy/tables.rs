@@ -148,3 +148,27 @@ fn ids_are_unique_and_fit_to_be_typed() {
         }
     }
 }
+
+/// The packages that a list lacks, of those that tests want.
+fn lacking(tests: &str, list: &str) -> Vec<String> {
+    // Every Debian with a linker has these, or none.
+    let given = ["coreutils", "gcc", "mount, by root"];
+    let wanted = tests.split("Need::new(\"").skip(1).filter_map(|rest| rest.split('"').next());
+    let named: BTreeSet<&str> =
+        list.split_whitespace().filter_map(|it| it.split(':').next()).collect();
+    let lacking = wanted.filter(|package| !given.contains(package) && !named.contains(package));
+    lacking.map(|package| format!("{package} is wanted by a test and not in the list")).collect()
+}
+
+#[test]
+fn every_package_that_a_test_wants_is_in_the_readme_and_installed_by_ci() {
+    for program in ["tools", "window"] {
+        let path = root().join(format!("tests/{program}/main.rs"));
+        let tests = std::fs::read_to_string(path).expect("the table of the tests");
+        assert!(tests.matches("Need::new(").count() > 4, "{program}");
+        none(lacking(&tests, &between("README.md", "`apt-get install ", '`')));
+        none(lacking(&tests, &between(".ci/run", "packages=(", ')')));
+    }
+    let test = "Need::new(\"gcc\", f) Need::new(\"weston\", f)";
+    assert_eq!([lacking(test, "xvfb weston:Weston").len(), lacking(test, "xvfb").len()], [0, 1]);
+}

@@ -4,7 +4,9 @@ use std::fs;
 use std::io::{BufRead, BufReader};
 use std::process::Stdio;
 use std::sync::LazyLock;
-use std::time::{Duration, Instant};
+#[cfg(target_os = "linux")]
+use std::time::Duration;
+use std::time::Instant;
 
 use regatta::measure::{AnalysisWorker, MethodAdvice, Report, recommended as taken};
 use regatta::scene::Scene;
@@ -13,6 +15,8 @@ use regatta::studio::{Instrument, StageCommand, Studio, accept_findings};
 use serde_json::Value;
 
 use super::{refusal, regatta, run_in, stdout_of};
+#[cfg(target_os = "linux")]
+use super::{start, stderr, until_worked, work_after};
 
 const CRITERIA: [&str; 3] = ["bounded", "looks-right", "accurate"];
 
@@ -386,7 +390,7 @@ fn margins_of_large_bodies_are_searched_only_near_the_least_cost() {
     assert!(text.lines().any(neither), "{text}");
 }
 
-#[cfg(unix)]
+#[cfg(target_os = "linux")]
 #[test]
 fn an_interrupt_ends_the_search_for_the_truth() {
     let folder = tempfile::tempdir().unwrap();
@@ -394,22 +398,12 @@ fn an_interrupt_ends_the_search_for_the_truth() {
     let chain = "[[chain]]\nmasses = 256\nmass_kg = 1\nstiffness_n_per_m = 800\n".repeat(24);
     let scene = format!("title = 'x'\ntick_hz = 60\nseconds = 60\n{chain}");
     fs::write(folder.path().join("long.toml"), scene).unwrap();
-    let mut child = regatta()
-        .args(["advise", "--scene", "long.toml"])
-        .current_dir(folder.path())
-        .stdout(Stdio::piped())
-        .stderr(Stdio::piped())
-        .spawn()
-        .unwrap();
-    std::thread::sleep(Duration::from_millis(1000));
-    let sent = std::process::Command::new("kill").args(["-INT", &child.id().to_string()]).status();
-    assert!(sent.unwrap().success());
-    let begin = Instant::now();
-    assert_eq!(child.wait().unwrap().code(), Some(130));
-    // An idle machine needs a tenth of that.
-    assert!(begin.elapsed() < Duration::from_secs(1), "{:?}", begin.elapsed());
-    let output = child.wait_with_output().unwrap();
-    let error = String::from_utf8(output.stderr).unwrap();
+    let mut child = start(folder.path(), "advise --scene long.toml");
+    until_worked(&mut child, Duration::from_millis(500));
+    let (output, work) = work_after("-INT", child);
+    assert_eq!(output.status.code(), Some(130));
+    assert!(work < Duration::from_secs(1), "{work:?}");
+    let error = stderr(&output);
     assert_eq!(error, "error: interrupted after 0 of 25 methods\n");
 }
 

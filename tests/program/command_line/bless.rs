@@ -2,15 +2,16 @@
 
 use std::collections::BTreeMap;
 use std::fs;
-use std::io::{self, Write};
 use std::path::Path;
-use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
 use tempfile::TempDir;
 
+#[cfg(unix)]
 use super::mishaps::XorShift;
-use super::{regatta, run_in, stderr};
+#[cfg(unix)]
+use super::{ended_by, start};
+use super::{run_in, stderr};
 
 type Content = BTreeMap<String, Vec<u8>>;
 
@@ -55,15 +56,12 @@ fn clip() -> (TempDir, Content, Content, Duration) {
 #[cfg(unix)]
 #[test]
 fn killing_bless_leaves_the_old_clip_or_the_new_one() {
-    let test = "killing_bless_leaves_the_old_clip_or_the_new_one";
     let (folder, old, new, duration) = clip();
     let folder = folder.path();
-    let mut random = XorShift::new(test);
+    let mut random = XorShift::new();
     for _ in 0..8 {
         restore(folder, &old);
-        let mut command = regatta();
-        command.current_dir(folder).args(["verify", "clip", "--bless"]).stderr(Stdio::null());
-        let mut child = command.spawn().unwrap();
+        let mut child = start(folder, "verify clip --bless");
         std::thread::sleep(Duration::from_micros(random.below(duration.as_micros() as u64)));
         // That is SIGKILL.
         child.kill().unwrap();
@@ -94,16 +92,12 @@ fn interrupting_bless_keeps_the_old_clip() {
     let mut interrupted = 0;
     for _ in 0..5 {
         restore(folder, &old);
-        let mut command = regatta();
-        command.current_dir(folder).args(["verify", "clip", "--bless"]).stderr(Stdio::piped());
-        let child = command.spawn().unwrap();
+        let child = start(folder, "verify clip --bless");
         let is_begun = || content(folder).keys().any(|name| name.starts_with(".regatta-bless-"));
         while !is_begun() {
             std::thread::sleep(Duration::from_millis(1));
         }
-        let interrupt = Command::new("kill").args(["-INT", &child.id().to_string()]).status();
-        assert!(interrupt.unwrap().success());
-        let output = child.wait_with_output().unwrap();
+        let output = ended_by("-INT", child);
         match output.status.code() {
             Some(0) => assert!(content(folder) == new),
             Some(130) => {
@@ -170,35 +164,4 @@ fn a_file_in_the_directory_of_a_swap_never_replaces_another() {
         }
         assert_eq!(fs::read(stray.join("notes.txt")).unwrap(), b"not mine");
     }
-}
-
-#[cfg(target_os = "linux")]
-#[test]
-fn an_unwritable_clip_is_a_failed_run() {
-    let test = "an_unwritable_clip_is_a_failed_run";
-    let folder = tempfile::tempdir().unwrap();
-    let disk = folder.path().join("clip");
-    fs::create_dir(&disk).unwrap();
-    let mount = |options: &str| {
-        let mut command = Command::new("mount");
-        command.args(["-t", "tmpfs", "-o", options, "tmpfs"]).arg(&disk).stderr(Stdio::null());
-        command.status().is_ok_and(|status| status.success())
-    };
-    if !mount("size=2m") {
-        let _ = writeln!(io::stderr(), "SKIPPED {test}: a small disk cannot be mounted here");
-        return;
-    }
-    let capture = "capture --scene spring --frames 2 --size 16x16 --out clip";
-    run_in(folder.path(), capture);
-    let output = mount("remount,ro").then(|| {
-        let blessed = run_in(folder.path(), "verify clip --bless");
-        (blessed, run_in(folder.path(), "verify clip"))
-    });
-    assert!(Command::new("umount").arg(&disk).status().unwrap().success());
-    let Some((blessed, judged)) = output else { return };
-    assert_eq!(blessed.status.code(), Some(1), "{}", stderr(&blessed));
-    let said = stderr(&blessed);
-    assert!(said.contains("Read-only file system"), "{said}");
-    assert!(said.contains("; make it one that you may write to"), "{said}");
-    assert_eq!(judged.status.code(), Some(0), "{}", stderr(&judged));
 }

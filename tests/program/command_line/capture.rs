@@ -3,19 +3,9 @@
 use std::fs;
 use std::path::Path;
 
-use super::{regatta, run_in, stderr};
-
-pub(crate) fn names(directory: &Path) -> Vec<String> {
-    let entries = fs::read_dir(directory).unwrap();
-    let mut names: Vec<_> =
-        entries.map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect();
-    names.sort();
-    names
-}
-
-pub(crate) fn dimensions(picture: &Path) -> (u32, u32) {
-    image::open(picture).unwrap().into_rgba8().dimensions()
-}
+use super::{dimensions, names, regatta, run_in, stderr};
+#[cfg(unix)]
+use super::{ended_by, start};
 
 #[test]
 fn the_same_command_makes_the_same_bytes() {
@@ -95,25 +85,15 @@ fn an_unwritable_frame_ends_the_capture_with_whole_files_only() {
 #[cfg(unix)]
 #[test]
 fn an_interrupt_leaves_whole_frames_and_reports_their_number() {
-    use std::process::{Command, Stdio};
-    use std::time::Duration;
-
     let folder = tempfile::tempdir().unwrap();
     let probe = "capture --frames 1 --size 16x16 --out probe";
     run_in(folder.path(), probe);
-    let child = regatta()
-        .current_dir(folder.path())
-        .args("capture --frames 100000 --size 64x64 --out clip".split(' '))
-        .stderr(Stdio::piped())
-        .spawn()
-        .unwrap();
+    let child = start(folder.path(), "capture --frames 100000 --size 64x64 --out clip");
     let clip = folder.path().join("clip");
     while !clip.join("frame-000002.png").exists() {
-        std::thread::sleep(Duration::from_millis(5));
+        std::thread::sleep(std::time::Duration::from_millis(5));
     }
-    let interrupt = Command::new("kill").args(["-INT", &child.id().to_string()]).status();
-    assert!(interrupt.unwrap().success());
-    let output = child.wait_with_output().unwrap();
+    let output = ended_by("-INT", child);
     let said = stderr(&output);
     assert_eq!(output.status.code(), Some(130), "{said}");
     let mut frames = names(&clip);

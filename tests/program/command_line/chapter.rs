@@ -4,8 +4,7 @@ use std::fs;
 
 use serde_json::Value;
 
-use super::capture::names;
-use super::{refusal, run_in, stderr, stdout_of};
+use super::{names, refusal, run_in, stderr, stdout_of};
 
 #[test]
 fn every_printed_number_has_its_tick() {

@@ -1,23 +1,16 @@
 //! Other people's files, other writers, links and devices: foreign files stay unchanged.
 
-use std::fs::{self, File};
-use std::io::{Read, Write};
+use std::fs;
 use std::path::Path;
-use std::process::{Child, Command, Stdio};
 use std::time::Duration;
 
 use regatta::scene::Scene;
 
-use super::capture::names;
-use super::{regatta, run_in, stderr};
+#[cfg(unix)]
+use super::ended_by;
+use super::{names, run_in, start, stderr};
 
 const GIF: &str = "capture --scene spring --frames 3 --size 32x18 --scale 0.5";
-
-fn start(folder: &Path, arguments: &str) -> Child {
-    let mut command = regatta();
-    command.current_dir(folder).args(arguments.split(' ')).stderr(Stdio::piped());
-    command.spawn().unwrap()
-}
 
 #[test]
 fn the_extension_of_a_file_sets_its_format() {
@@ -93,9 +86,7 @@ fn a_directory_being_written_is_locked_against_writers_and_judges() {
     let judged = run_in(folder.path(), "verify clip");
     assert_eq!(judged.status.code(), Some(2));
     assert!(stderr(&judged).contains("another regatta is writing to it"), "{}", stderr(&judged));
-    let interrupt = Command::new("kill").args(["-INT", &first.id().to_string()]).status();
-    assert!(interrupt.unwrap().success());
-    assert_eq!(first.wait_with_output().unwrap().status.code(), Some(130));
+    assert_eq!(ended_by("-INT", first).status.code(), Some(130));
     let output = run_in(folder.path(), &format!("{GIF} --out clip --force"));
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
     assert_eq!(names(&folder.path().join("clip")).len(), 4);
@@ -145,63 +136,6 @@ fn a_symbolic_link_stays_and_its_target_is_written() {
     std::os::unix::fs::symlink("ring.gif", path("ring.gif")).unwrap();
     let refused = run_in(folder.path(), &format!("{GIF} --out ring.gif --force"));
     assert_eq!(refused.status.code(), Some(1), "{}", stderr(&refused));
-}
-
-#[cfg(unix)]
-#[test]
-fn a_named_pipe_is_written_to_and_not_replaced() {
-    let test = "a_named_pipe_is_written_to_and_not_replaced";
-    let folder = tempfile::tempdir().unwrap();
-    let run = GIF.to_owned() + " --format y4m --out";
-    run_in(folder.path(), &format!("{run} run.y4m"));
-    let pipe = folder.path().join("pipe");
-    if !Command::new("mkfifo").arg(&pipe).status().is_ok_and(|status| status.success()) {
-        let _ = writeln!(std::io::stderr(), "SKIPPED {test}: there is no mkfifo");
-        return;
-    }
-    let writer = start(folder.path(), &format!("{run} pipe"));
-    let mut read = Vec::new();
-    File::open(&pipe).unwrap().read_to_end(&mut read).unwrap();
-    let output = writer.wait_with_output().unwrap();
-    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
-    assert!(read == fs::read(folder.path().join("run.y4m")).unwrap());
-    assert_eq!(names(folder.path()), ["pipe", "run.y4m"]);
-}
-
-#[cfg(unix)]
-#[test]
-fn a_signal_ends_a_command_while_nothing_reads_its_pipe() {
-    let test = "a_signal_ends_a_command_while_nothing_reads_its_pipe";
-    let folder = tempfile::tempdir().unwrap();
-    let pipe = folder.path().join("pipe");
-    if !Command::new("mkfifo").arg(&pipe).status().is_ok_and(|status| status.success()) {
-        let _ = writeln!(std::io::stderr(), "SKIPPED {test}: there is no mkfifo");
-        return;
-    }
-    let sweep = "sweep --scene spring --method rk4 --tick-hz 60";
-    let game_loop = "loop --trace steady-144 --out rows.csv --frame-rows";
-    // The one waits for a reader; of the other a reader takes nothing, and it has more than a pipe holds.
-    for (arguments, has_reader) in [
-        (format!("{sweep} --out pipe"), false),
-        (format!("{game_loop} pipe"), false),
-        (format!("{game_loop} pipe"), true),
-    ] {
-        let reader =
-            has_reader.then(|| File::options().read(true).write(true).open(&pipe).unwrap());
-        let child = start(folder.path(), &arguments);
-        std::thread::sleep(Duration::from_millis(1500));
-        let sent = Command::new("kill").arg(child.id().to_string()).status();
-        assert!(sent.unwrap().success());
-        let asked = std::time::Instant::now();
-        let output = child.wait_with_output().unwrap();
-        let said = stderr(&output);
-        // Far more than 0.2 s, which is promised of a machine that does nothing else.
-        assert!(asked.elapsed() < Duration::from_secs(3), "{arguments}: {:?}", asked.elapsed());
-        assert_eq!(output.status.code(), Some(130), "{arguments}: {said}");
-        assert_eq!(said, "error: interrupted while nothing was reading pipe\n", "{arguments}");
-        drop(reader);
-        assert_eq!(names(folder.path()), ["pipe"], "{arguments}");
-    }
 }
 
 #[test]

@@ -6,8 +6,7 @@ use regatta::loops::{POLICIES, TRACES};
 use regatta::manual::chapter;
 use serde_json::Value;
 
-use super::capture::dimensions;
-use super::{refusal, run, run_in, stderr};
+use super::{dimensions, refusal, run, run_in, stderr};
 
 const HEADER: &str = "policy,trace,tick_hz,frames,animation_error_rms_ms,animation_error_max_ms,\
                       repeated_percent,double_percent,old_refreshes_percent,latency_mean_ms,\

@@ -2,13 +2,16 @@
 //! in the same place.
 
 use std::fs;
-use std::io::{self, Write};
 use std::path::Path;
-use std::process::{Child, Command, Stdio};
+use std::process::Command;
+use std::thread;
 use std::time::{Duration, SystemTime, UNIX_EPOCH};
 
-use super::capture::{dimensions, names};
-use super::{regatta, run_in, stderr};
+#[cfg(unix)]
+use super::ended_by;
+use super::{names, regatta, run_in, start, stderr};
+#[cfg(target_os = "linux")]
+use super::{until_worked, work_after};
 
 const FRAMES: usize = 25;
 const CAPTURE: &str = "capture --scene harbour --race --frames 25 --size 96x54 --scale 0.5 --out";
@@ -17,11 +20,11 @@ const CAPTURE: &str = "capture --scene harbour --race --frames 25 --size 96x54 -
 pub(crate) struct XorShift(u64);
 
 impl XorShift {
-    pub(crate) fn new(test: &str) -> Self {
+    pub(crate) fn new() -> Self {
         let since = SystemTime::now().duration_since(UNIX_EPOCH).expect("after 1970");
         let given = std::env::var("SEED").ok().and_then(|seed| seed.parse().ok());
         let seed = given.unwrap_or(since.as_nanos() as u64 | 1);
-        println!("{test}: SEED={seed}");
+        println!("{}: SEED={seed}", thread::current().name().unwrap_or_default());
         Self(seed)
     }
 
@@ -31,12 +34,6 @@ impl XorShift {
         self.0 ^= self.0 << 17;
         self.0 % limit
     }
-}
-
-fn start(folder: &Path, arguments: &str) -> Child {
-    let mut command = regatta();
-    command.current_dir(folder).args(arguments.split(' ')).stderr(Stdio::piped());
-    command.spawn().unwrap()
 }
 
 /// The whole capture, and how long it takes.
@@ -92,15 +89,14 @@ fn running_out_of_memory_ends_in_a_sentence() {
 #[cfg(unix)]
 #[test]
 fn killing_a_capture_leaves_whole_frames_and_it_can_be_redrawn() {
-    let test = "killing_a_capture_leaves_whole_frames_and_it_can_be_redrawn";
     let folder = tempfile::tempdir().unwrap();
     let folder = folder.path();
     let whole = whole(folder);
-    let mut random = XorShift::new(test);
+    let mut random = XorShift::new();
     for _ in 0..10 {
         let _ = fs::remove_dir_all(folder.join("clip"));
         let mut child = start(folder, &format!("{CAPTURE} clip"));
-        std::thread::sleep(Duration::from_micros(random.below(whole.as_micros() as u64)));
+        thread::sleep(Duration::from_micros(random.below(whole.as_micros() as u64)));
         // That is SIGKILL.
         child.kill().unwrap();
         child.wait().unwrap();
@@ -118,25 +114,19 @@ fn killing_a_capture_leaves_whole_frames_and_it_can_be_redrawn() {
     }
 }
 
-#[cfg(unix)]
+#[cfg(target_os = "linux")]
 #[test]
 fn an_interrupt_during_verdicts_ends_the_capture_at_once() {
     let folder = tempfile::tempdir().unwrap();
     let folder = folder.path();
-    whole(folder);
     // Seconds of verdicts, whole or cut short.
     let capture = "capture --scene orbit --race --tick-hz 10000 --frames 1 --size 96x54 --out clip";
     for signal in ["-INT", "-TERM"] {
         let mut child = start(folder, capture);
-        std::thread::sleep(Duration::from_millis(500));
-        assert_eq!(child.try_wait().unwrap(), None, "verdicts take longer");
-        let sent = Command::new("kill").args([signal, &child.id().to_string()]).status();
-        assert!(sent.unwrap().success());
-        let begin = std::time::Instant::now();
-        let output = child.wait_with_output().unwrap();
+        until_worked(&mut child, Duration::from_millis(500));
+        let (output, work) = work_after(signal, child);
         assert_eq!(output.status.code(), Some(130), "{signal}: {}", stderr(&output));
-        // An idle machine needs a tenth of that.
-        assert!(begin.elapsed() < Duration::from_secs(1), "{signal}: {:?}", begin.elapsed());
+        assert!(work < Duration::from_secs(1), "{signal}: {work:?}");
         assert!(!folder.join("clip/frame-000000.png").exists(), "{signal}");
         let _ = fs::remove_dir_all(folder.join("clip"));
     }
@@ -145,22 +135,19 @@ fn an_interrupt_during_verdicts_ends_the_capture_at_once() {
 #[cfg(unix)]
 #[test]
 fn interrupting_a_capture_leaves_a_manifest_of_its_frames() {
-    let test = "interrupting_a_capture_leaves_a_manifest_of_its_frames";
     let folder = tempfile::tempdir().unwrap();
     let folder = folder.path();
     whole(folder);
-    let mut random = XorShift::new(test);
+    let mut random = XorShift::new();
     let mut interrupted = 0;
     for _ in 0..7 {
         let _ = fs::remove_dir_all(folder.join("clip"));
         let child = start(folder, &format!("{CAPTURE} clip"));
         let frame = folder.join(format!("clip/frame-{:06}.png", random.below(FRAMES as u64)));
         while !frame.exists() {
-            std::thread::sleep(Duration::from_micros(random.below(1000)));
+            thread::sleep(Duration::from_micros(random.below(1000)));
         }
-        let interrupt = Command::new("kill").args(["-INT", &child.id().to_string()]).status();
-        assert!(interrupt.unwrap().success());
-        let output = child.wait_with_output().unwrap();
+        let output = ended_by("-INT", child);
         let (frames, rest) = first_of_whole(folder);
         assert_eq!(rest, ["manifest.json"], "{}", stderr(&output));
         let manifest = fs::read_to_string(folder.join("clip/manifest.json")).unwrap();
@@ -191,67 +178,4 @@ fn an_uncreatable_directory_ends_the_capture() {
     assert!(matches!(output.status.code(), Some(1 | 2)), "{}", stderr(&output));
     assert!(stderr(&output).contains("file/clip"), "{}", stderr(&output));
     assert_eq!(fs::read(folder.path().join("file")).unwrap(), b"mine");
-}
-
-/// Mounts a disk of this size at `disk`; `None`, with a word, where that cannot be done.
-#[cfg(target_os = "linux")]
-fn mounted_or_skip(test: &str, disk: &Path, size: &str) -> Option<()> {
-    fs::create_dir(disk).unwrap();
-    let mount = ["-t", "tmpfs", "-o", &format!("size={size}"), "tmpfs"];
-    let mounted = Command::new("mount").args(mount).arg(disk).stderr(Stdio::null()).status();
-    if !mounted.is_ok_and(|status| status.success()) {
-        let _ = writeln!(io::stderr(), "SKIPPED {test}: a small disk cannot be mounted here");
-        return None;
-    }
-    Some(())
-}
-
-#[cfg(target_os = "linux")]
-#[test]
-fn a_full_disk_leaves_no_partial_file_and_a_remedy() {
-    let test = "a_full_disk_leaves_no_partial_file_and_a_remedy";
-    let folder = tempfile::tempdir().unwrap();
-    let disk = folder.path().join("disk");
-    let Some(()) = mounted_or_skip(test, &disk, "64k") else { return };
-    let run = "capture --scene harbour --race --frames 30 --size 320x180 --out disk/run.";
-    let ended: Vec<_> = ["gif", "y4m", "png"]
-        .into_iter()
-        .map(|format| run_in(folder.path(), &format!("{run}{format}")))
-        .map(|output| (output, names(&disk)))
-        .collect();
-    let unmounted = Command::new("umount").arg(&disk).status();
-    assert!(unmounted.unwrap().success());
-    for (output, left) in ended {
-        let said = stderr(&output);
-        assert_eq!(output.status.code(), Some(1), "{said}");
-        assert!(said.contains("No space left on device"), "{said}");
-        let way_on = "free some space, or give another --out; nothing is left of it, and the same \
-                      command writes all of it";
-        assert!(said.contains(way_on), "{said}");
-        assert!(!said.contains(".part"), "{said}");
-        assert!(left.is_empty(), "{left:?}");
-    }
-}
-
-#[cfg(target_os = "linux")]
-#[test]
-fn a_full_disk_ends_the_capture_with_whole_frames_only() {
-    let test = "a_full_disk_ends_the_capture_with_whole_frames_only";
-    let folder = tempfile::tempdir().unwrap();
-    let disk = folder.path().join("clip");
-    let Some(()) = mounted_or_skip(test, &disk, "2m") else { return };
-    let capture = "capture --scene harbour --race --frames 400 --size 640x360 --out clip";
-    let output = run_in(folder.path(), capture);
-    let left = names(&disk);
-    let sizes: Vec<_> = left.iter().map(|name| dimensions(&disk.join(name))).collect();
-    let unmounted = Command::new("umount").arg(&disk).status();
-    assert!(unmounted.unwrap().success());
-    let said = stderr(&output);
-    assert_eq!(output.status.code(), Some(1), "{said}");
-    assert!(said.contains("No space left on device"), "{said}");
-    assert!(said.contains("free some space, or give another --out"), "{said}");
-    assert!(said.contains("the same command with --force draws all frames"), "{said}");
-    let expected: Vec<_> = (0..left.len()).map(|n| format!("frame-{n:06}.png")).collect();
-    assert_eq!(left, expected);
-    assert!(!left.is_empty() && sizes.iter().all(|&size| size == (640, 360)));
 }

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::fs;
 use std::io::Read;
-use std::process::{Command, Stdio};
+use std::process::Stdio;
 use std::time::Duration;
 
 use regatta::scene::{SCENES, Scene};
@@ -11,8 +11,9 @@ use regatta::sim::integrators::{GENERAL_METHODS, method};
 use serde_json::Value;
 
 use super::advise::ON_SPRING;
-use super::capture::names;
-use super::{refusal, regatta, run_in, stderr, stdout_of};
+#[cfg(unix)]
+use super::{ended_by, start};
+use super::{names, refusal, regatta, run_in, stderr, stdout_of};
 
 pub(crate) const HEADER: &str = "scene,body,method,tick_hz,seconds,error,energy_drift_percent,\
                       evaluations_per_s,ns_per_s,verdict,halted,half_life_ms,overshoot_percent,parameter,value";
@@ -336,18 +337,11 @@ fn a_signal_ends_the_longest_sweep_at_once_without_a_file() {
     // Weeks.
     let sweep = "sweep --seconds 31536000 --tick-hz 10000 --out rows.csv";
     for signal in ["-INT", "-TERM", "-HUP"] {
-        let child = regatta()
-            .current_dir(folder.path())
-            .args(sweep.split(' '))
-            .stderr(Stdio::piped())
-            .spawn()
-            .unwrap();
+        let child = start(folder.path(), sweep);
         while names(folder.path()).is_empty() {
             std::thread::sleep(Duration::from_millis(1));
         }
-        let sent = Command::new("kill").args([signal, &child.id().to_string()]).status();
-        assert!(sent.unwrap().success());
-        let output = child.wait_with_output().unwrap();
+        let output = ended_by(signal, child);
         assert_eq!(stderr(&output), "error: interrupted; nothing was written\n", "{signal}");
         assert_eq!(output.status.code(), Some(130), "{signal}");
         assert!(names(folder.path()).is_empty(), "{signal}");

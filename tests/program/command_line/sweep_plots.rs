@@ -7,9 +7,8 @@ use std::process::Stdio;
 use regatta::look::palette::Theme;
 use regatta::sim::integrators::method;
 
-use super::capture::{dimensions, names};
 use super::sweep::HEADER;
-use super::{refusal, regatta, run_in, stderr};
+use super::{dimensions, names, refusal, regatta, run_in, stderr};
 
 /// How many pixels of the picture have each of these colours, or one close to it.
 fn lit(picture: &Path, colours: &[[u8; 3]]) -> Vec<usize> {

@@ -1,7 +1,7 @@
 //! One run in every format: the same pixels in each, and other programs can read them.
 
 use std::fs::{self, File};
-use std::io::{self, BufReader, Read, Write};
+use std::io::{BufReader, Read, Write};
 use std::path::Path;
 use std::process::{Command, Stdio};
 
@@ -10,8 +10,9 @@ use image::{AnimationDecoder, Frame, RgbaImage};
 use regatta::manual::chapter;
 use tempfile::TempDir;
 
-use super::capture::names;
-use super::{regatta, run_in, stderr};
+#[cfg(unix)]
+use super::ended_by;
+use super::{names, regatta, run_in, stderr};
 
 const FRAMES: usize = 7;
 const RUN: &str = "capture --scene harbour --race --frames 7 --fps 12 --size 93x51 --scale 0.5";
@@ -35,35 +36,24 @@ fn written(folder: &Path, format: &str) -> Vec<u8> {
     fs::read(folder.join(format!("run.{format}"))).unwrap()
 }
 
-/// A program's output about a file. If it is not installed, reports `test` as skipped.
-fn asked_or_skip(test: &str, program: &str, arguments: &[&str], file: &Path) -> Option<String> {
-    match Command::new(program).args(arguments).arg(file).output() {
-        Ok(output) => {
-            let [out, err] = [output.stdout, output.stderr].map(|b| String::from_utf8(b).unwrap());
-            assert!(output.status.success(), "{program}: {out}{err}");
-            Some(out + &err)
-        }
-        Err(error) => {
-            let _ = writeln!(io::stderr(), "SKIPPED {test}: {program}: {error}");
-            None
-        }
-    }
+/// A program's output about a file.
+fn asked(program: &str, arguments: &[&str], file: &Path) -> String {
+    let output = Command::new(program).args(arguments).arg(file).output().unwrap();
+    let [out, err] = [output.stdout, output.stderr].map(|b| String::from_utf8(b).unwrap());
+    assert!(output.status.success(), "{program}: {out}{err}");
+    out + &err
 }
 
-#[test]
-fn a_third_party_decoder_reads_single_frames() {
-    let test = "a_third_party_decoder_reads_single_frames";
+pub(crate) fn a_third_party_decoder_reads_single_frames() {
     let (folder, _) = clip();
     for n in 0..FRAMES {
         let path = folder.path().join(format!("clip/frame-{n:06}.png"));
-        let Some(said) = asked_or_skip(test, "pngcheck", &[], &path) else { return };
+        let said = asked("pngcheck", &[], &path);
         assert!(said.contains("OK: ") && said.contains("(93x51, 32-bit RGB+alpha, "), "{said}");
     }
 }
 
-#[test]
-fn a_gif_keeps_its_timing_and_looks_alike() {
-    let test = "a_gif_keeps_its_timing_and_looks_alike";
+pub(crate) fn a_gif_keeps_its_timing_and_looks_alike() {
     let (folder, frames) = clip();
     written(folder.path(), "gif");
     let path = folder.path().join("run.gif");
@@ -84,14 +74,17 @@ fn a_gif_keeps_its_timing_and_looks_alike() {
         let mean = off.sum::<u64>() as f64 / frame.len() as f64;
         assert!(mean < 6.0, "off by {mean} on average");
     }
-    if let Some(said) = asked_or_skip(test, "gifsicle", &["--info"], &path) {
-        assert!(said.contains("7 images") && said.contains("logical screen 93x51"), "{said}");
-        assert!(said.contains("loop forever"), "{said}");
-    }
 }
 
-#[test]
-fn y4m_has_a_header_and_three_planes_a_frame() {
+pub(crate) fn gifsicle_reads_every_frame_of_a_gif() {
+    let (folder, _) = clip();
+    written(folder.path(), "gif");
+    let said = asked("gifsicle", &["--info"], &folder.path().join("run.gif"));
+    assert!(said.contains("7 images") && said.contains("logical screen 93x51"), "{said}");
+    assert!(said.contains("loop forever"), "{said}");
+}
+
+pub(crate) fn y4m_has_a_header_and_three_planes_a_frame() {
     let (folder, frames) = clip();
     let bytes = written(folder.path(), "y4m");
     let header = b"YUV4MPEG2 W93 H51 F12:1 Ip A1:1 C444 XCOLORRANGE=LIMITED\n";
@@ -109,9 +102,7 @@ fn y4m_has_a_header_and_three_planes_a_frame() {
     assert!(rest.is_empty());
 }
 
-#[test]
-fn ffmpeg_reads_every_film_with_the_drawn_frames() {
-    let test = "ffmpeg_reads_every_film_with_the_drawn_frames";
+pub(crate) fn ffmpeg_reads_every_film_with_the_drawn_frames() {
     let (folder, frames) = clip();
     let drawn: Vec<u8> = frames.iter().flat_map(|frame| frame.as_raw().clone()).collect();
     // Chroma is rounded to a byte and luma to its range of 219; a GIF has 256 colours.
@@ -122,16 +113,14 @@ fn ffmpeg_reads_every_film_with_the_drawn_frames() {
         let film = folder.path().join(format!("run.{format}"));
         let shown = "stream=codec_name,width,height,r_frame_rate,nb_read_frames";
         let probe = ["-v", "error", "-count_frames", "-show_entries", shown, "-of", "csv=p=0"];
-        let Some(said) = asked_or_skip(test, "ffprobe", &probe, &film) else { return };
+        let said = asked("ffprobe", &probe, &film);
         assert_eq!(said.trim(), format!("{codec},93,51,{rate},7"), "{format}");
 
         let raw = folder.path().join("raw");
         let film = film.to_str().expect("plain letters");
         let decode = ["-v", "error", "-y", "-i", film, "-fps_mode", "passthrough"];
         let to_rgba = ["-f", "rawvideo", "-pix_fmt", "rgba"];
-        let Some(_) = asked_or_skip(test, "ffmpeg", &[&decode[..], &to_rgba].concat(), &raw) else {
-            return;
-        };
+        asked("ffmpeg", &[&decode[..], &to_rgba].concat(), &raw);
         let read = fs::read(raw).unwrap();
         assert_eq!(read.len(), drawn.len(), "{format}");
         let off = read.iter().zip(&drawn).map(|(a, b)| a.abs_diff(*b));
@@ -142,15 +131,12 @@ fn ffmpeg_reads_every_film_with_the_drawn_frames() {
     }
 }
 
-#[test]
-fn the_manuals_pipe_to_ffmpeg_makes_a_film() {
-    let test = "the_manuals_pipe_to_ffmpeg_makes_a_film";
+pub(crate) fn the_manuals_pipe_to_ffmpeg_makes_a_film() {
     let text = chapter("commands").unwrap().text.replace("\\\n", " ");
     let (before, after) = text.split_once(" |\n  ffmpeg ").expect("a pipe");
     let ours = before.lines().last().expect("our command");
     let theirs = after.lines().next().expect("the encoder's");
     let folder = tempfile::tempdir().unwrap();
-    let Some(_) = asked_or_skip(test, "ffmpeg", &[], Path::new("-version")) else { return };
     let smaller = "--frames 12 --size 160x90 --scale 0.5";
     let ours = ours.replace("--seconds 10", smaller).replace("regatta ", "");
     let stream = run_in(folder.path(), &ours);
@@ -164,12 +150,11 @@ fn the_manuals_pipe_to_ffmpeg_makes_a_film() {
     let probe = ["-v", "error", "-count_frames", "-show_entries", "stream=width,nb_read_frames"];
     let of = ["-of", "csv=p=0"];
     let film = folder.path().join("clip.mp4");
-    let said = asked_or_skip(test, "ffprobe", &[&probe[..], &of].concat(), &film);
-    assert_eq!(said.expect("it comes with ffmpeg").trim(), "160,12");
+    let said = asked("ffprobe", &[&probe[..], &of].concat(), &film);
+    assert_eq!(said.trim(), "160,12");
 }
 
-#[test]
-fn standard_output_has_the_same_bytes_as_a_file() {
+pub(crate) fn standard_output_has_the_same_bytes_as_a_file() {
     let (folder, _) = clip();
     for format in ["y4m", "gif"] {
         let output = run_in(folder.path(), &format!("{RUN} --format {format} --out -"));
@@ -178,8 +163,7 @@ fn standard_output_has_the_same_bytes_as_a_file() {
     }
 }
 
-#[test]
-fn a_sheet_has_time_across_and_lanes_down() {
+pub(crate) fn a_sheet_has_time_across_and_lanes_down() {
     let folder = tempfile::tempdir().unwrap();
     let sheet = "capture --scene spring --frames 3 --size 90x50 --out sheet.png";
     let output = run_in(folder.path(), sheet);
@@ -201,8 +185,7 @@ fn a_sheet_has_time_across_and_lanes_down() {
     }
 }
 
-#[test]
-fn a_pipe_that_closes_ends_a_stream_quietly() {
+pub(crate) fn a_pipe_that_closes_ends_a_stream_quietly() {
     let (folder, _) = clip();
     for format in ["y4m", "gif"] {
         let mut child = regatta()
@@ -223,8 +206,7 @@ fn a_pipe_that_closes_ends_a_stream_quietly() {
 }
 
 #[cfg(unix)]
-#[test]
-fn an_interrupted_stream_leaves_no_file() {
+pub(crate) fn an_interrupted_stream_leaves_no_file() {
     let (folder, _) = clip();
     let run = RUN.replace("--frames 7", "--frames 100000");
     let child = regatta()
@@ -245,9 +227,7 @@ fn an_interrupted_stream_leaves_no_file() {
     while !is_begun() {
         std::thread::sleep(std::time::Duration::from_millis(5));
     }
-    let interrupt = Command::new("kill").args(["-INT", &child.id().to_string()]).status();
-    assert!(interrupt.unwrap().success());
-    let output = child.wait_with_output().unwrap();
+    let output = ended_by("-INT", child);
     assert_eq!(output.status.code(), Some(130), "{}", stderr(&output));
     assert_eq!(names(folder.path()), ["clip"]);
 }

@@ -1,14 +1,14 @@
 //! Each language's driver, compiled and run, and its states against the methods of the table.
 
+use std::fs;
 use std::process::Command;
-use std::{env, fs};
 
 use regatta::sim::integrators::{Family, METHODS, Method};
 use regatta::tools::source_code::{Language, Precision, source_code};
 
 use super::drivers;
-use super::known::{CASES, Case, FORCES, STEPS, steps};
-use crate::compilers::{build_folder, compiled_or_skip};
+use super::known::{CASES, Case, FORCES, STEPS, steps_as};
+use crate::compilers::{build_folder, compile, rustc};
 
 /// The methods whose function does not make the same operations as the method of the table: those that solve
 /// equations, for which Newton's iteration is written out for one coordinate, and those that use a power or an
@@ -60,10 +60,10 @@ pub(super) fn same(language: Language, precision: Precision, text: &str) {
             }
             let off = match case.is_paused() {
                 true => off_where_paused(method, case, &found),
-                false => off_from_table(method, precision, &steps(method, case), &found),
+                false => off_from_table(method, precision, &steps_as(method, method, case), &found),
             };
             if let Some(off) = off {
-                let force = FORCES[case.force].name;
+                let force = FORCES[case.force].text;
                 wrong.push(format!("{} in {language} on {force}, case {k}: {off}", method.id));
             }
         }
@@ -128,60 +128,46 @@ pub(super) fn printed(driver: &mut Command) -> String {
 const PRECISIONS: [(Precision, &str); 2] =
     [(Precision::Double, "double"), (Precision::Single, "single")];
 
-#[test]
-fn generated_rust_matches_the_methods() {
+pub(crate) fn generated_rust_matches_the_methods() {
     for (precision, name) in PRECISIONS {
         let folder = build_folder(&format!("methods-rust-{name}"));
         let (source, program) = (folder.join("driver.rs"), folder.join("driver"));
         fs::write(&source, drivers::rust(precision)).unwrap();
-        let mut compiler = Command::new(env::var_os("RUSTC").unwrap_or("rustc".into()));
-        compiler
-            .args(["--edition=2024", "-Dwarnings", "-Copt-level=1", "-o"])
-            .arg(&program)
-            .arg(&source);
-        if compiled_or_skip("generated_rust_matches_the_methods", &mut compiler) {
-            same(Language::Rust, precision, &printed(&mut Command::new(&program)));
-        }
+        let mut compiler = rustc();
+        compile(compiler.args(["-Dwarnings", "-Copt-level=1", "-o"]).arg(&program).arg(&source));
+        same(Language::Rust, precision, &printed(&mut Command::new(&program)));
     }
 }
 
 /// Compiles the functions in C with these additional arguments, and compares them.
-fn compare_c(test: &str, compiler: &str, file: &str, more: &[&str]) {
+fn compare_c(compiler: &str, file: &str, more: &[&str]) {
     for (precision, name) in PRECISIONS {
         let folder = build_folder(&format!("methods-{file}-{name}"));
         let (source, program) = (folder.join(file), folder.join("driver"));
         fs::write(&source, drivers::c(precision)).unwrap();
         let mut compiler = Command::new(compiler);
         compiler.args(["-O1", "-Wall", "-Wextra", "-pedantic", "-Werror"]).args(more);
-        compiler.arg("-o").arg(&program).arg(&source).arg("-lm");
-        if compiled_or_skip(test, &mut compiler) {
-            same(Language::C, precision, &printed(&mut Command::new(&program)));
-        }
+        compile(compiler.arg("-o").arg(&program).arg(&source).arg("-lm"));
+        same(Language::C, precision, &printed(&mut Command::new(&program)));
     }
 }
 
-#[test]
-fn generated_c_matches_the_methods() {
-    let more = ["-std=c99", "-Wconversion", "-Wdouble-promotion"];
-    compare_c("generated_c_matches_the_methods", "cc", "driver.c", &more);
+pub(crate) fn generated_c_matches_the_methods() {
+    compare_c("cc", "driver.c", &["-std=c99", "-Wconversion", "-Wdouble-promotion"]);
 }
 
-#[test]
-fn generated_c_is_valid_cpp() {
-    compare_c("generated_c_is_valid_cpp", "c++", "driver.cpp", &["-std=c++14"]);
+pub(crate) fn generated_c_is_valid_cpp() {
+    compare_c("c++", "driver.cpp", &["-std=c++14"]);
 }
 
-#[test]
-fn generated_c_sharp_matches_the_methods() {
+pub(crate) fn generated_c_sharp_matches_the_methods() {
     for (precision, name) in PRECISIONS {
         let folder = build_folder(&format!("methods-cs-{name}"));
         let (source, program) = (folder.join("driver.cs"), folder.join("driver.exe"));
         fs::write(&source, drivers::c_sharp(precision)).unwrap();
         let mut compiler = Command::new("mcs");
         compiler.args(["-langversion:3", "-warnaserror", &format!("-out:{}", program.display())]);
-        compiler.arg(&source);
-        if compiled_or_skip("generated_c_sharp_matches_the_methods", &mut compiler) {
-            same(Language::CSharp, precision, &printed(Command::new("mono").arg(&program)));
-        }
+        compile(compiler.arg(&source));
+        same(Language::CSharp, precision, &printed(Command::new("mono").arg(&program)));
     }
 }

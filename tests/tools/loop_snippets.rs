@@ -1,15 +1,15 @@
 //! The printed code of the loops matches the loops of the tables, frame by frame, in each language.
 
-use std::env;
 use std::fmt::Write as _;
 use std::fs;
 use std::io::Write as _;
 use std::path::PathBuf;
 use std::process::{Command, Stdio};
 
-use crate::compilers::{build_folder, compiled_or_skip};
 use regatta::loops::{ENGINES, POLICIES, Pacer, PolicyCard, RefreshRate, TimeBase, own_loop};
 use regatta::tools::source_code::{Language, loop_code};
+
+use crate::compilers::{build_folder, compile, rustc};
 
 /// The rates of a loop.
 #[derive(Clone, Copy, Debug)]
@@ -201,8 +201,8 @@ impl Driver {
         self.whole.replace("LOOPS", &loops).replace("CALLS", &calls)
     }
 
-    fn written(&self) -> PathBuf {
-        let path = build_folder(&format!("loops-{}", self.language.id())).join(self.file);
+    fn written(&self, folder: &str) -> PathBuf {
+        let path = build_folder(&format!("loops-{folder}")).join(self.file);
         fs::write(&path, self.program()).unwrap();
         path
     }
@@ -254,8 +254,7 @@ fn answer(line: &str, tick_s: f64) -> Answer {
     Answer { steps, step_s, shown_s: made_s + (number() - 1.0) * tick_s }
 }
 
-#[test]
-fn the_rust_loops_match_the_tables() {
+pub(crate) fn the_rust_loops_match_the_tables() {
     let driver = Driver {
         language: Language::Rust,
         file: "driver.rs",
@@ -274,58 +273,56 @@ fn the_rust_loops_match_the_tables() {
                 let (refreshes, seconds, engines, frames) = (number(), number(), number() as u32, number() as usize);\n\
                 let durations: Vec<f64> = (0..frames).map(|_| number()).collect();\nCALLS\n}\n}\n",
     };
-    let source = driver.written();
+    let source = driver.written("rust");
     let program = source.with_extension("");
-    let mut compiler = Command::new(env::var_os("RUSTC").unwrap_or("rustc".into()));
-    compiler.args(["--edition=2024", "-Dwarnings", "-o"]).arg(&program).arg(&source);
-    if compiled_or_skip("the_rust_loops_match_the_tables", &mut compiler) {
-        driver.matches(&mut Command::new(program));
-    }
+    compile(rustc().args(["-Dwarnings", "-o"]).arg(&program).arg(&source));
+    driver.matches(&mut Command::new(program));
 }
 
-#[test]
-fn the_c_loops_match_the_tables_and_are_valid_cpp() {
-    let driver = Driver {
-        language: Language::C,
-        file: "driver.c",
-        each: "#define game_loop NAME_type\n#define game_loop_new NAME_new\n#define game_loop_frame NAME_frame\n\
-               #define loop_sign NAME_sign\n#define loop_remainder NAME_remainder\n#define loop_single NAME_single\n\
-               CODE\n\
-               static void NAME(double tick_hz, double refreshes, double seconds) {\n\
-               (void)tick_hz; (void)refreshes; (void)seconds;\n\
-               game_loop it = game_loop_new(NEW);\nstruct answer a = { 0, 0.0, 0.0 };\n\
-               for (int n = 0; n < frames; n++) {\nconst double ns = durations[n];\ndouble shown = 1.0;\n\
-               a.count = 0;\na.last = 0.0;\nSHOWNgame_loop_frame(&it, TIME, made, &a);\n\
-               printf(\"%d %.17g %.17g %.17g\\n\", a.count, a.last, a.made, shown);\n}\n}\n\
-               #undef game_loop\n#undef game_loop_new\n#undef game_loop_frame\n#undef loop_sign\n\
-               #undef loop_remainder\n#undef loop_single\n",
-        call: "if (WHEN == 1) NAME(tick_hz, refreshes, seconds);",
-        shown: "shown = ",
-        whole: "#include <stdio.h>\n#include <math.h>\nstruct answer { int count; double last, made; };\n\
-                static double durations[10000];\nstatic int frames;\n\
-                static void made(double seconds, void *user) {\nstruct answer *a = (struct answer *)user;\n\
-                a->count++;\na->last = seconds;\na->made += seconds;\n}\nLOOPS\nint main(void) {\n\
-                double tick_hz, refreshes, seconds;\nint engines;\n\
-                while (scanf(\"%lf %lf %lf %d %d\", &tick_hz, &refreshes, &seconds, &engines, &frames) == 5) {\n\
-                for (int n = 0; n < frames; n++) if (scanf(\"%lf\", &durations[n]) != 1) return 1;\nCALLS\n}\n\
-                return 0;\n}\n",
-    };
-    let source = driver.written();
+const C: Driver = Driver {
+    language: Language::C,
+    file: "driver.c",
+    each: "#define game_loop NAME_type\n#define game_loop_new NAME_new\n#define game_loop_frame NAME_frame\n\
+           #define loop_sign NAME_sign\n#define loop_remainder NAME_remainder\n#define loop_single NAME_single\n\
+           CODE\n\
+           static void NAME(double tick_hz, double refreshes, double seconds) {\n\
+           (void)tick_hz; (void)refreshes; (void)seconds;\n\
+           game_loop it = game_loop_new(NEW);\nstruct answer a = { 0, 0.0, 0.0 };\n\
+           for (int n = 0; n < frames; n++) {\nconst double ns = durations[n];\ndouble shown = 1.0;\n\
+           a.count = 0;\na.last = 0.0;\nSHOWNgame_loop_frame(&it, TIME, made, &a);\n\
+           printf(\"%d %.17g %.17g %.17g\\n\", a.count, a.last, a.made, shown);\n}\n}\n\
+           #undef game_loop\n#undef game_loop_new\n#undef game_loop_frame\n#undef loop_sign\n\
+           #undef loop_remainder\n#undef loop_single\n",
+    call: "if (WHEN == 1) NAME(tick_hz, refreshes, seconds);",
+    shown: "shown = ",
+    whole: "#include <stdio.h>\n#include <math.h>\nstruct answer { int count; double last, made; };\n\
+            static double durations[10000];\nstatic int frames;\n\
+            static void made(double seconds, void *user) {\nstruct answer *a = (struct answer *)user;\n\
+            a->count++;\na->last = seconds;\na->made += seconds;\n}\nLOOPS\nint main(void) {\n\
+            double tick_hz, refreshes, seconds;\nint engines;\n\
+            while (scanf(\"%lf %lf %lf %d %d\", &tick_hz, &refreshes, &seconds, &engines, &frames) == 5) {\n\
+            for (int n = 0; n < frames; n++) if (scanf(\"%lf\", &durations[n]) != 1) return 1;\nCALLS\n}\n\
+            return 0;\n}\n",
+};
+
+const WARNINGS: [&str; 4] = ["-Wall", "-Wextra", "-pedantic", "-Werror"];
+
+pub(crate) fn the_c_loops_match_the_tables() {
+    let source = C.written("c");
     let program = source.with_extension("");
-    let warnings = ["-Wall", "-Wextra", "-pedantic", "-Werror"];
     let mut compiler = Command::new("cc");
-    compiler.arg("-std=c99").args(warnings).arg("-o").arg(&program).arg(&source).arg("-lm");
-    let test = "the_c_loops_match_the_tables_and_are_valid_cpp";
-    if compiled_or_skip(test, &mut compiler) {
-        driver.matches(&mut Command::new(&program));
-    }
-    let mut compiler = Command::new("c++");
-    compiler.args(["-std=c++14", "-x", "c++", "-fsyntax-only"]).args(warnings).arg(&source);
-    compiled_or_skip(test, &mut compiler);
+    compiler.arg("-std=c99").args(WARNINGS).arg("-o").arg(&program).arg(&source).arg("-lm");
+    compile(&mut compiler);
+    C.matches(&mut Command::new(&program));
 }
 
-#[test]
-fn the_c_sharp_loops_match_the_tables() {
+pub(crate) fn the_c_loops_are_valid_cpp() {
+    let mut compiler = Command::new("c++");
+    compiler.args(["-std=c++14", "-x", "c++", "-fsyntax-only"]).args(WARNINGS);
+    compile(compiler.arg(C.written("cpp")));
+}
+
+pub(crate) fn the_c_sharp_loops_match_the_tables() {
     let driver = Driver {
         language: Language::CSharp,
         file: "driver.cs",
@@ -347,17 +344,14 @@ fn the_c_sharp_loops_match_the_tables() {
                 for (int n = 0; n < durations.Length; n++) durations[n] = long.Parse(System.Console.ReadLine());\n\
                 CALLS\n}\noutput.Flush();\n}\n}\n",
     };
-    let source = driver.written();
+    let source = driver.written("cs");
     let program = source.with_extension("exe");
     let mut compiler = Command::new("mcs");
-    compiler.args(["-warnaserror", &format!("-out:{}", program.display())]).arg(&source);
-    if compiled_or_skip("the_c_sharp_loops_match_the_tables", &mut compiler) {
-        driver.matches(Command::new("mono").arg(&program));
-    }
+    compile(compiler.args(["-warnaserror", &format!("-out:{}", program.display())]).arg(&source));
+    driver.matches(Command::new("mono").arg(&program));
 }
 
-#[test]
-fn the_javascript_loops_match_the_tables() {
+pub(crate) fn the_javascript_loops_match_the_tables() {
     let driver = Driver {
         language: Language::JavaScript,
         file: "driver.js",
@@ -376,14 +370,10 @@ fn the_javascript_loops_match_the_tables() {
                 for (const run of runs) run(out, tick_hz, refreshes, seconds, engines, durations);\n}\n\
                 process.stdout.write(out.join('\\n') + '\\n');\n",
     };
-    let mut version = Command::new("node");
-    if compiled_or_skip("the_javascript_loops_match_the_tables", version.arg("--version")) {
-        driver.matches(Command::new("node").arg(driver.written()));
-    }
+    driver.matches(Command::new("node").arg(driver.written("js")));
 }
 
-#[test]
-fn the_lua_loops_match_the_tables() {
+pub(crate) fn the_lua_loops_match_the_tables() {
     let driver = Driver {
         language: Language::Lua,
         file: "driver.lua",
@@ -400,14 +390,10 @@ fn the_lua_loops_match_the_tables() {
                 for n = 1, frames do durations[n] = io.read('n') end\n\
                 for _, run in ipairs(runs) do run(tick_hz, refreshes, seconds, engines, durations) end\nend\n",
     };
-    let mut version = Command::new("lua5.4");
-    if compiled_or_skip("the_lua_loops_match_the_tables", version.arg("-v")) {
-        driver.matches(Command::new("lua5.4").arg(driver.written()));
-    }
+    driver.matches(Command::new("lua5.4").arg(driver.written("lua")));
 }
 
-#[test]
-fn every_loop_is_printed_in_gdscript_with_indented_blocks() {
+pub(crate) fn every_loop_is_printed_in_gdscript_with_indented_blocks() {
     for card in cards() {
         let code = loop_code(card.id, card.lines().unwrap(), Language::GdScript).unwrap();
         let lines: Vec<&str> = code.lines().filter(|line| !line.trim().is_empty()).collect();

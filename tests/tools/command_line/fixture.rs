@@ -1,23 +1,23 @@
 //! `fixture`: exact states as a test, which a good engine passes and a bad one fails.
 
 use std::fs;
-use std::io::{self, Write as _};
 use std::path::Path;
 use std::process::Command;
 
 use serde_json::Value;
 
 use super::{refusal, run_in, stdout_of};
+use crate::compilers::{compile, rustc};
 
 /// A spring of 2 kg on 40 N/m with 0.5 N s/m.
 const SPRING: &str = "fixture --k 40 --c 0.5 --mass 2 --seconds 5";
 
-/// The placeholder for an engine's step in the file of each language.
-const OPEN: [(&str, &str); 3] = [
-    ("pytest", "    raise NotImplementedError(\"put your engine's step here\")"),
-    ("gtest", "    throw std::logic_error(\"put your engine's step here\");"),
-    ("rust", "    todo!(\"put your engine's step here\")"),
-];
+/// A language of tests, with the placeholder for an engine's step in its file.
+type Open = (&'static str, &'static str);
+
+const PYTHON: Open = ("pytest", "    raise NotImplementedError(\"put your engine's step here\")");
+const CPP: Open = ("gtest", "    throw std::logic_error(\"put your engine's step here\");");
+const RUST: Open = ("rust", "    todo!(\"put your engine's step here\")");
 
 /// A step on that spring, for such a place: of Runge-Kutta 4, or of explicit Euler.
 fn engine(language: &str, is_good: bool) -> String {
@@ -59,8 +59,8 @@ template <class T> const Failure& operator<<(const Failure& it, const T& what) {
 #define TEST(suite, name) int main()
 ";
 
-/// Whether the test in this file passes, with its output; `None` if its language is not installed.
-fn passes(folder: &Path, language: &str, text: &str) -> Option<(bool, String)> {
+/// Whether the test in this file passes, with its output.
+fn passes(folder: &Path, language: &str, text: &str) -> (bool, String) {
     let program = folder.join("program");
     let (name, text) = match language {
         "pytest" => ("test.py", format!("{text}\n\nexpect(step)\n")),
@@ -71,53 +71,50 @@ fn passes(folder: &Path, language: &str, text: &str) -> Option<(bool, String)> {
     fs::write(&file, text).unwrap();
     fs::create_dir_all(folder.join("gtest")).unwrap();
     fs::write(folder.join("gtest/gtest.h"), GTEST).unwrap();
-    let compiler = match language {
-        "pytest" => None,
+    let mut run = Command::new(&program);
+    match language {
+        "pytest" => {
+            run = Command::new("python3");
+            run.arg(&file);
+        }
         "gtest" => {
             let mut compiler = Command::new("c++");
             compiler.args(["-std=c++14", "-Wall", "-pedantic", "-Werror", "-I"]).arg(folder);
-            Some(compiler)
+            compile(compiler.arg(&file).arg("-o").arg(&program));
         }
-        _ => {
-            let mut compiler = Command::new(std::env::var_os("RUSTC").unwrap_or("rustc".into()));
-            compiler.args(["--edition=2024", "--test", "-Dwarnings"]);
-            Some(compiler)
-        }
-    };
-    if let Some(mut compiler) = compiler {
-        let made = compiler.arg(&file).arg("-o").arg(&program).output().ok()?;
-        assert!(made.status.success(), "{}", String::from_utf8_lossy(&made.stderr));
+        _ => compile(rustc().args(["--test", "-Dwarnings"]).arg(&file).arg("-o").arg(&program)),
     }
-    let run = match language {
-        "pytest" => Command::new("python3").arg(&file).output().ok()?,
-        _ => Command::new(&program).output().unwrap(),
-    };
-    let said = [run.stdout, run.stderr].concat();
-    Some((run.status.success(), String::from_utf8(said).unwrap()))
+    let run = run.output().unwrap();
+    (run.status.success(), String::from_utf8([run.stdout, run.stderr].concat()).unwrap())
 }
 
-#[test]
-fn a_good_engine_passes_and_a_bad_one_fails_at_its_first_wrong_state() {
+fn tells_engines_apart((language, open): Open) {
     let folder = tempfile::tempdir().unwrap();
-    for (language, open) in OPEN {
-        for precision in ["", " --float"] {
-            let text = stdout_of(&format!("{SPRING} --as {language}{precision}"));
-            assert!(text.contains("stiffness_n_per_m = 40") && text.contains(open), "{text}");
-            for is_good in [true, false] {
-                let filled = text.replace(open, &engine(language, is_good));
-                let Some((passed, said)) = passes(folder.path(), language, &filled) else {
-                    drop(writeln!(io::stderr(), "SKIPPED fixture of {language}: no compiler"));
-                    continue;
-                };
-                assert_eq!(passed, is_good, "{language}{precision}: {said}");
-                assert!(is_good || said.contains("spring, tick "), "{said}");
-            }
+    for precision in ["", " --float"] {
+        let text = stdout_of(&format!("{SPRING} --as {language}{precision}"));
+        assert!(text.contains("stiffness_n_per_m = 40") && text.contains(open), "{text}");
+        for is_good in [true, false] {
+            let filled = text.replace(open, &engine(language, is_good));
+            let (passed, said) = passes(folder.path(), language, &filled);
+            assert_eq!(passed, is_good, "{language}{precision}: {said}");
+            assert!(is_good || said.contains("spring, tick "), "{said}");
         }
     }
 }
 
-#[test]
-fn a_fixture_has_the_states_of_a_trace_and_the_least_tolerance_of_its_truth() {
+pub(crate) fn a_good_engine_passes_and_a_bad_one_fails_in_python() {
+    tells_engines_apart(PYTHON);
+}
+
+pub(crate) fn a_good_engine_passes_and_a_bad_one_fails_in_cpp() {
+    tells_engines_apart(CPP);
+}
+
+pub(crate) fn a_good_engine_passes_and_a_bad_one_fails_in_rust() {
+    tells_engines_apart(RUST);
+}
+
+pub(crate) fn a_fixture_has_the_states_of_a_trace_and_the_least_tolerance_of_its_truth() {
     let json = |arguments: &str| -> Value { serde_json::from_str(&stdout_of(arguments)).unwrap() };
     let found = json("fixture --scene spring --every 7 --seconds 1 --as json");
     let states = found["bodies"][0]["states"].as_array().unwrap();
@@ -140,8 +137,7 @@ fn a_fixture_has_the_states_of_a_trace_and_the_least_tolerance_of_its_truth() {
     assert!(refusal("fixture --scene spring", 2).contains("--as"));
 }
 
-#[test]
-fn names_are_escaped_and_a_fixture_without_later_states_is_refused() {
+pub(crate) fn names_are_escaped_and_a_fixture_without_later_states_is_refused() {
     let folder = tempfile::tempdir().unwrap();
     let name = "re\u{301}sort \\ \"2\"";
     let scene = "title = 'A'\nabout = 'a'\ntick_hz = 60\nseconds = 1\nmethods = ['rk4']\n\

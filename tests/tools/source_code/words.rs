@@ -10,7 +10,7 @@ use regatta::sim::own_method;
 use regatta::tools::Rule;
 use regatta::tools::source_code::{Language, Precision, source_code};
 
-use crate::compilers::{build_folder, compiled_or_skip};
+use crate::compilers::{build_folder, compile, rustc};
 
 /// Words of Rust, C, C++, C# and GDScript, names of their libraries, and names that a change of case makes equal.
 const WORDS: &str = "abstract alignas and_eq as asm async auto await base become bitand bool box break byte case catch \
@@ -53,25 +53,56 @@ pub(super) fn code(rule: &str, language: Language) -> String {
     Rule::read(rule, 60.0).unwrap().code(rule, language).unwrap().text
 }
 
-#[test]
-fn words_of_a_language_are_renamed_in_it_and_compile() {
-    let folder = build_folder("words");
-    let test = "words_of_a_language_are_renamed_in_it_and_compile";
-    let (mut rust, mut c_sharp) = ("#![deny(unused_mut)]\n".to_owned(), String::new());
+/// Checks the rules in C by a compiler of this standard.
+fn compile_c(compiler: &str, ending: &str, standard: &str) {
+    let folder = build_folder(&format!("words-{ending}"));
+    for (n, rule) in rules().iter().enumerate() {
+        let file = folder.join(format!("{n}.{ending}"));
+        fs::write(&file, code(rule, Language::C)).unwrap();
+        let mut command = Command::new(compiler);
+        compile(command.args([standard, "-Wall", "-Wextra", "-Werror", "-fsyntax-only"]).arg(file));
+    }
+}
+
+pub(crate) fn words_of_c_are_renamed_in_it_and_compile() {
+    compile_c("cc", "c", "-std=gnu11");
+}
+
+pub(crate) fn words_of_cpp_are_renamed_in_it_and_compile() {
+    compile_c("c++", "cpp", "-std=c++20");
+}
+
+pub(crate) fn words_of_rust_are_renamed_in_it_and_compile() {
+    let folder = build_folder("words-rust");
+    let mut rust = "#![deny(unused_mut)]\n".to_owned();
     for (n, rule) in rules().iter().enumerate() {
         let names = "#[allow(non_snake_case, non_upper_case_globals, dead_code)]";
         writeln!(rust, "{names}\nmod rule_{n} {{\n{}}}", code(rule, Language::Rust)).unwrap();
+    }
+    // The memory is read from another module, as a game does.
+    rust += "fn main() {\n    let mut m = rule_0::RuleMemory::default();\n    \
+             let (x, v) = rule_0::rule(&mut m, 0.0, 0.0, 0.02, 1.0);\n    println!(\"{x} {v} {}\", m.shown);\n}\n";
+    let file = folder.join("words.rs");
+    fs::write(&file, rust).unwrap();
+    compile(rustc().args(["--crate-type=bin", "-o"]).arg(folder.join("words")).arg(file));
+}
+
+pub(crate) fn words_of_c_sharp_are_renamed_in_it_and_compile() {
+    let folder = build_folder("words-cs");
+    let mut c_sharp = String::new();
+    for (n, rule) in rules().iter().enumerate() {
         writeln!(c_sharp, "namespace Rule{n} {{\n{}}}", code(rule, Language::CSharp)).unwrap();
-        for (ending, compiler, standard) in
-            [("c", "cc", "-std=gnu11"), ("cpp", "c++", "-std=c++20")]
-        {
-            let file = folder.join(format!("{n}.{ending}"));
-            fs::write(&file, code(rule, Language::C)).unwrap();
-            let mut command = Command::new(compiler);
-            command.args([standard, "-Wall", "-Wextra", "-Werror", "-fsyntax-only"]).arg(file);
-            compiled_or_skip(test, &mut command);
-        }
-        let gd_script = code(rule, Language::GdScript);
+    }
+    let file = folder.join("words.cs");
+    fs::write(&file, c_sharp).unwrap();
+    let mut mcs = Command::new("mcs");
+    mcs.arg("-target:library").arg(format!("-out:{}", folder.join("words.dll").display()));
+    compile(mcs.arg(file));
+}
+
+pub(crate) fn words_of_gdscript_are_renamed_in_it() {
+    for rule in rules() {
+        let gd_script = code(&rule, Language::GdScript);
         for line in gd_script.lines().map(str::trim_start) {
             let name = line.strip_prefix("var ").and_then(|line| line.split_once(':'));
             let words = "class self in is match pass func signal yield await PI TAU NAN get set script minf log";
@@ -81,25 +112,9 @@ fn words_of_a_language_are_renamed_in_it_and_compile() {
             );
         }
     }
-    let [rust_file, c_sharp_file] = ["words.rs", "words.cs"].map(|name| folder.join(name));
-    // The memory is read from another module, as a game does.
-    rust += "fn main() {\n    let mut m = rule_0::RuleMemory::default();\n    \
-             let (x, v) = rule_0::rule(&mut m, 0.0, 0.0, 0.02, 1.0);\n    println!(\"{x} {v} {}\", m.shown);\n}\n";
-    fs::write(&rust_file, rust).unwrap();
-    fs::write(&c_sharp_file, c_sharp).unwrap();
-    let mut rustc = Command::new("rustc");
-    rustc
-        .args(["--edition=2024", "--crate-type=bin", "-o"])
-        .arg(folder.join("words"))
-        .arg(&rust_file);
-    assert!(compiled_or_skip(test, &mut rustc));
-    let mut mcs = Command::new("mcs");
-    mcs.arg("-target:library").arg(format!("-out:{}", folder.join("words.dll").display()));
-    compiled_or_skip(test, mcs.arg(&c_sharp_file));
 }
 
-#[test]
-fn names_that_a_language_cannot_tell_apart_stay_two() {
+pub(crate) fn names_that_a_language_cannot_tell_apart_stay_two() {
     let rule = "let foo_bar = x * 2\nlet fooBar = x * 3\nlet _x = 1\nx += clamp(target - x, foo_bar, fooBar + _x)";
     let printed = code(rule, Language::CSharp);
     for declared in ["double fooBar = x * 2.0;", "double foobar = x * 3.0;", "double _x = 1.0;"] {
@@ -113,8 +128,7 @@ fn names_that_a_language_cannot_tell_apart_stay_two() {
     assert!(c.contains("void box(") && c.contains("const double in = a(x, v, user);"), "{c}");
 }
 
-#[test]
-fn no_remark_becomes_code_in_any_language() {
+pub(crate) fn no_remark_becomes_code_in_any_language() {
     for end in ["\u{2028}", "\u{2029}", "\u{85}", "\u{b}", "\u{c}", "\r", "\u{202e}"] {
         let rule = format!("x += (target - x) * 0.1 // a remark{end}using Math = Evil; \\");
         for language in Language::ALL {

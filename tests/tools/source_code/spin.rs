@@ -1,7 +1,7 @@
 //! The steps of a free spin as lines and as they are printed, beside the methods of the table.
 
+use std::fs;
 use std::process::Command;
-use std::{env, fs};
 
 use glam::{DQuat, DVec3};
 use regatta::sim::State;
@@ -11,7 +11,7 @@ use regatta::sim::law::StepText;
 use regatta::tools::source_code::{Language, Precision, source_code};
 
 use super::compiled::printed;
-use crate::compilers::{build_folder, compiled_or_skip};
+use crate::compilers::{build_folder, compile, rustc};
 
 /// A body and the rate of its steps.
 struct Case {
@@ -108,8 +108,7 @@ fn bits(state: &[f64; 7]) -> [u64; 7] {
     state.map(|number| (number + 0.0).to_bits())
 }
 
-#[test]
-fn the_lines_of_a_spin_step_like_its_method_to_the_bit() {
+pub(crate) fn the_lines_of_a_spin_step_like_its_method_to_the_bit() {
     for method in methods() {
         let text = StepText::read_spin(method.code)
             .unwrap_or_else(|fault| panic!("{}: {fault:?}", method.id));
@@ -140,62 +139,64 @@ struct Driver {
     whole: &'static str,
 }
 
-const DRIVERS: [Driver; 5] = [
-    Driver {
-        language: Language::Rust,
-        file: "driver.rs",
-        each: "mod NAME {\nCODE}\n",
-        call: "{ let (mut w, mut q): ([NUMBER; 3], [NUMBER; 4]) = ([W], [Q]); for _ in 0..STEPS { (w, q) = \
-               NAME::NAME(w, qMOMENTS, H); show(&[q[0], q[1], q[2], q[3], w[0], w[1], w[2]].map(|x| x as f64)); } }",
-        moments: ", [I]",
-        whole: "FUNCTIONS\nfn show(all: &[f64]) { println!(\"{}\", all.iter().map(|x| format!(\"{:016x}\", \
-                x.to_bits())).collect::<Vec<_>>().join(\" \")); }\nfn main() {\nCALLS}\n",
-    },
-    Driver {
-        language: Language::C,
-        file: "driver.c",
-        each: "CODE",
-        call: "{ NUMBER w[3] = { W }, q[4] = { Q }; const NUMBER i[3] = { I }; for (int n = 0; n < STEPS; n++) { \
-               NAME(w, qMOMENTS, H); (void)i; show((double)q[0], 0); show((double)q[1], 0); show((double)q[2], 0); \
-               show((double)q[3], 0); show((double)w[0], 0); show((double)w[1], 0); show((double)w[2], 1); } }",
-        moments: ", i",
-        whole: "#include <stdio.h>\n#include <string.h>\nFUNCTIONS\nstatic void show(double x, int is_last)\n{\n\
-                unsigned long long bits;\nmemcpy(&bits, &x, 8);\nprintf(is_last ? \"%016llx\\n\" : \"%016llx \", bits);\n}\n\
-                int main(void)\n{\nCALLS\nreturn 0;\n}\n",
-    },
-    Driver {
-        language: Language::CSharp,
-        file: "driver.cs",
-        each: "CODE",
-        call: "{ NUMBER[] w = { W }, q = { Q }; for (int n = 0; n < STEPS; n++) { PASCAL.Step(ref w[0], ref w[1], \
-               ref w[2], ref q[0], ref q[1], ref q[2], ref q[3]MOMENTS, H); Show(q[0], q[1], q[2], q[3], w[0], w[1], w[2]); } }",
-        moments: ", I",
-        whole: "using System;\nFUNCTIONS\npublic static class Driver\n{\nstatic void Show(params double[] all)\n{\n\
-                string[] words = Array.ConvertAll(all, x => BitConverter.DoubleToInt64Bits(x).ToString(\"x16\"));\n\
-                Console.WriteLine(string.Join(\" \", words));\n}\npublic static void Main()\n{\nCALLS}\n}\n",
-    },
-    Driver {
-        language: Language::JavaScript,
-        file: "driver.js",
-        each: "CODE",
-        call: "{ let w = [W], q = [Q]; for (let n = 0; n < STEPS; n++) { [w, q] = CAMEL(w, qMOMENTS, H); show([...q, ...w]); } }",
-        moments: ", [I]",
-        whole: "'use strict';\nconst view = new DataView(new ArrayBuffer(8));\nconst out = [];\n\
-                function bits(x) { view.setFloat64(0, x); return view.getBigUint64(0).toString(16).padStart(16, '0'); }\n\
-                function show(all) { out.push(all.map(bits).join(' ')); }\nFUNCTIONS\nCALLS\nconsole.log(out.join('\\n'));\n",
-    },
-    Driver {
-        language: Language::Lua,
-        file: "driver.lua",
-        each: "do\nCODEruns.NAME = NAME\nend\n",
-        call: "do local a, b, c = W local w, x, y, z = Q for n = 1, STEPS do a, b, c, w, x, y, z = \
-               runs.NAME(a, b, c, w, x, y, zMOMENTS, H) show(w, x, y, z, a, b, c) end end",
-        moments: ", I",
-        whole: "local runs = {}\nlocal function show(...)\nlocal all = {...}\n\
-                for n = 1, #all do all[n] = string.format('%016x', string.unpack('<i8', string.pack('<d', all[n]))) end\n\
-                print(table.concat(all, ' '))\nend\nFUNCTIONS\nCALLS\n",
-    },
-];
+const RUST: Driver = Driver {
+    language: Language::Rust,
+    file: "driver.rs",
+    each: "mod NAME {\nCODE}\n",
+    call: "{ let (mut w, mut q): ([NUMBER; 3], [NUMBER; 4]) = ([W], [Q]); for _ in 0..STEPS { (w, q) = \
+           NAME::NAME(w, qMOMENTS, H); show(&[q[0], q[1], q[2], q[3], w[0], w[1], w[2]].map(|x| x as f64)); } }",
+    moments: ", [I]",
+    whole: "FUNCTIONS\nfn show(all: &[f64]) { println!(\"{}\", all.iter().map(|x| format!(\"{:016x}\", \
+            x.to_bits())).collect::<Vec<_>>().join(\" \")); }\nfn main() {\nCALLS}\n",
+};
+
+const C: Driver = Driver {
+    language: Language::C,
+    file: "driver.c",
+    each: "CODE",
+    call: "{ NUMBER w[3] = { W }, q[4] = { Q }; const NUMBER i[3] = { I }; for (int n = 0; n < STEPS; n++) { \
+           NAME(w, qMOMENTS, H); (void)i; show((double)q[0], 0); show((double)q[1], 0); show((double)q[2], 0); \
+           show((double)q[3], 0); show((double)w[0], 0); show((double)w[1], 0); show((double)w[2], 1); } }",
+    moments: ", i",
+    whole: "#include <stdio.h>\n#include <string.h>\nFUNCTIONS\nstatic void show(double x, int is_last)\n{\n\
+            unsigned long long bits;\nmemcpy(&bits, &x, 8);\nprintf(is_last ? \"%016llx\\n\" : \"%016llx \", bits);\n}\n\
+            int main(void)\n{\nCALLS\nreturn 0;\n}\n",
+};
+
+const C_SHARP: Driver = Driver {
+    language: Language::CSharp,
+    file: "driver.cs",
+    each: "CODE",
+    call: "{ NUMBER[] w = { W }, q = { Q }; for (int n = 0; n < STEPS; n++) { PASCAL.Step(ref w[0], ref w[1], \
+           ref w[2], ref q[0], ref q[1], ref q[2], ref q[3]MOMENTS, H); Show(q[0], q[1], q[2], q[3], w[0], w[1], w[2]); } }",
+    moments: ", I",
+    whole: "using System;\nFUNCTIONS\npublic static class Driver\n{\nstatic void Show(params double[] all)\n{\n\
+            string[] words = Array.ConvertAll(all, x => BitConverter.DoubleToInt64Bits(x).ToString(\"x16\"));\n\
+            Console.WriteLine(string.Join(\" \", words));\n}\npublic static void Main()\n{\nCALLS}\n}\n",
+};
+
+const JAVASCRIPT: Driver = Driver {
+    language: Language::JavaScript,
+    file: "driver.js",
+    each: "CODE",
+    call: "{ let w = [W], q = [Q]; for (let n = 0; n < STEPS; n++) { [w, q] = CAMEL(w, qMOMENTS, H); show([...q, ...w]); } }",
+    moments: ", [I]",
+    whole: "'use strict';\nconst view = new DataView(new ArrayBuffer(8));\nconst out = [];\n\
+            function bits(x) { view.setFloat64(0, x); return view.getBigUint64(0).toString(16).padStart(16, '0'); }\n\
+            function show(all) { out.push(all.map(bits).join(' ')); }\nFUNCTIONS\nCALLS\nconsole.log(out.join('\\n'));\n",
+};
+
+const LUA: Driver = Driver {
+    language: Language::Lua,
+    file: "driver.lua",
+    each: "do\nCODEruns.NAME = NAME\nend\n",
+    call: "do local a, b, c = W local w, x, y, z = Q for n = 1, STEPS do a, b, c, w, x, y, z = \
+           runs.NAME(a, b, c, w, x, y, zMOMENTS, H) show(w, x, y, z, a, b, c) end end",
+    moments: ", I",
+    whole: "local runs = {}\nlocal function show(...)\nlocal all = {...}\n\
+            for n = 1, #all do all[n] = string.format('%016x', string.unpack('<i8', string.pack('<d', all[n]))) end\n\
+            print(table.concat(all, ' '))\nend\nFUNCTIONS\nCALLS\n",
+};
 
 impl Driver {
     /// Returns a program that prints the attitude and the angular velocity after each step of every method and case.
@@ -250,57 +251,37 @@ impl Driver {
         self.whole.replace("FUNCTIONS", &functions).replace("CALLS", &calls)
     }
 
-    /// Returns the command that runs the program, and compiles it if it must; `None` if the language is not installed.
-    fn command(&self, precision: Precision) -> Option<Command> {
+    /// Returns the command that runs the program, and compiles it if it must.
+    fn command(&self, precision: Precision) -> Command {
         let folder = build_folder(&format!("spin-{}-{precision:?}", self.language.id()));
         let (source, program) = (folder.join(self.file), folder.join("driver"));
         fs::write(&source, self.program(precision)).unwrap();
-        let mut compiler = match self.language {
-            Language::Rust => Command::new(env::var_os("RUSTC").unwrap_or("rustc".into())),
-            Language::C => Command::new("cc"),
-            Language::CSharp => Command::new("mcs"),
-            Language::JavaScript => Command::new("node"),
-            _ => Command::new("lua5.4"),
-        };
-        let interpreter = match self.language {
+        let (interpreter, file) = match self.language {
             Language::Rust => {
-                compiler.args(["--edition=2024", "-Dwarnings", "-Copt-level=1", "-o"]);
-                compiler.arg(&program).arg(&source);
-                None
+                let mut compiler = rustc();
+                compiler.args(["-Dwarnings", "-Copt-level=1", "-o"]).arg(&program);
+                compile(compiler.arg(&source));
+                return Command::new(program);
             }
             Language::C => {
+                let mut compiler = Command::new("cc");
                 compiler.args(["-std=c99", "-O1", "-Wall", "-Wextra", "-pedantic", "-Werror"]);
                 compiler.args(["-Wconversion", "-Wdouble-promotion", "-ffp-contract=off", "-o"]);
-                compiler.arg(&program).arg(&source).arg("-lm");
-                None
+                compile(compiler.arg(&program).arg(&source).arg("-lm"));
+                return Command::new(program);
             }
             Language::CSharp => {
+                let mut compiler = Command::new("mcs");
                 compiler.args(["-langversion:3", "-warnaserror"]);
-                compiler.arg(format!("-out:{}", program.display())).arg(&source);
-                Some("mono")
+                compile(compiler.arg(format!("-out:{}", program.display())).arg(&source));
+                ("mono", program)
             }
-            Language::JavaScript => {
-                compiler.arg("--version");
-                Some("node")
-            }
-            _ => {
-                compiler.arg("-v");
-                Some("lua5.4")
-            }
+            Language::JavaScript => ("node", source),
+            _ => ("lua5.4", source),
         };
-        if !compiled_or_skip("printed_steps_of_a_spin_match_the_methods", &mut compiler) {
-            return None;
-        }
-        let is_script = matches!(self.language, Language::JavaScript | Language::Lua);
-        let file = if is_script { source } else { program };
-        Some(match interpreter {
-            None => Command::new(file),
-            Some(interpreter) => {
-                let mut command = Command::new(interpreter);
-                command.arg(file);
-                command
-            }
-        })
+        let mut command = Command::new(interpreter);
+        command.arg(file);
+        command
     }
 }
 
@@ -308,47 +289,62 @@ impl Driver {
 /// differ in the last bit, and the middle axis makes more of it. In double precision, the others have equal bits.
 const ROUNDING: [f64; 2] = [3e-14, 5e-4];
 
-#[test]
-fn printed_steps_of_a_spin_match_the_methods() {
+fn match_the_methods(driver: &Driver) {
     let mut wrong = Vec::new();
-    for driver in &DRIVERS {
-        for precision in [Precision::Double, Precision::Single] {
-            let has_it = source_code(methods().next().unwrap(), driver.language, precision).is_ok();
-            let Some(mut command) = has_it.then(|| driver.command(precision)).flatten() else {
-                continue;
-            };
-            let text = printed(&mut command);
-            let mut lines = text.lines();
-            for method in methods() {
-                for (k, case) in CASES.iter().enumerate() {
-                    let mut worst = [0.0_f64; 2];
-                    for known in steps(method, case) {
-                        let words = lines.next().expect("a line for each step").split(' ');
-                        let bits = words.map(|word| u64::from_str_radix(word, 16).unwrap());
-                        let found: Vec<f64> = bits.map(f64::from_bits).collect();
-                        for (n, part) in [0..4, 4..7].into_iter().enumerate() {
-                            let size =
-                                known[part.clone()].iter().fold(0.0, |a: f64, b| a.max(b.abs()));
-                            for at in part {
-                                let off = (found[at] - known[at]).abs() / size;
-                                worst[n] = if off.is_nan() { off } else { worst[n].max(off) };
-                            }
+    for precision in [Precision::Double, Precision::Single] {
+        if source_code(methods().next().unwrap(), driver.language, precision).is_err() {
+            continue;
+        }
+        let text = printed(&mut driver.command(precision));
+        let mut lines = text.lines();
+        for method in methods() {
+            for (k, case) in CASES.iter().enumerate() {
+                let mut worst = [0.0_f64; 2];
+                for known in steps(method, case) {
+                    let words = lines.next().expect("a line for each step").split(' ');
+                    let bits = words.map(|word| u64::from_str_radix(word, 16).unwrap());
+                    let found: Vec<f64> = bits.map(f64::from_bits).collect();
+                    for (n, part) in [0..4, 4..7].into_iter().enumerate() {
+                        let size = known[part.clone()].iter().fold(0.0, |a: f64, b| a.max(b.abs()));
+                        for at in part {
+                            let off = (found[at] - known[at]).abs() / size;
+                            worst[n] = if off.is_nan() { off } else { worst[n].max(off) };
                         }
                     }
-                    let has_sine = method.code.contains("half_sine");
-                    let is_equal = precision == Precision::Double && !has_sine;
-                    let allowed = if is_equal { 0.0 } else { ROUNDING[precision as usize] };
-                    if !worst.iter().all(|off| *off <= allowed) {
-                        let language = driver.language;
-                        wrong.push(format!(
-                            "{} in {language}, {precision:?}, {k}: {worst:?}",
-                            method.id
-                        ));
-                    }
+                }
+                let has_sine = method.code.contains("half_sine");
+                let is_equal = precision == Precision::Double && !has_sine;
+                let allowed = if is_equal { 0.0 } else { ROUNDING[precision as usize] };
+                if !worst.iter().all(|off| *off <= allowed) {
+                    let language = driver.language;
+                    wrong.push(format!(
+                        "{} in {language}, {precision:?}, {k}: {worst:?}",
+                        method.id
+                    ));
                 }
             }
-            assert_eq!(lines.next(), None);
         }
+        assert_eq!(lines.next(), None);
     }
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+pub(crate) fn printed_steps_of_a_spin_match_the_methods_in_rust() {
+    match_the_methods(&RUST);
+}
+
+pub(crate) fn printed_steps_of_a_spin_match_the_methods_in_c() {
+    match_the_methods(&C);
+}
+
+pub(crate) fn printed_steps_of_a_spin_match_the_methods_in_c_sharp() {
+    match_the_methods(&C_SHARP);
+}
+
+pub(crate) fn printed_steps_of_a_spin_match_the_methods_in_javascript() {
+    match_the_methods(&JAVASCRIPT);
+}
+
+pub(crate) fn printed_steps_of_a_spin_match_the_methods_in_lua() {
+    match_the_methods(&LUA);
 }
