@@ -96,10 +96,6 @@ pub struct LoopLab {
     now_ns: i64,
     end_ns: i64,
     slowness: u32,
-    /// Whether the run resumes on leaving the loop lab.
-    pub run_goes_on: bool,
-    /// Whether the stage was shown without instruments before the loop lab opened.
-    pub stage_was_alone: bool,
 }
 
 impl LoopLab {
@@ -113,7 +109,7 @@ impl LoopLab {
         let scene = Arc::new(scene.clone().of_one_body(body));
         let traces: Vec<_> = cards.into_iter().map(|card| card.trace(DISPLAY)).collect();
         let trace = traces[0].clone();
-        let mut studio = Self {
+        let mut lab = Self {
             body: at_start(&scene),
             request: Arc::new(LoopRequest {
                 scene: scene.clone(),
@@ -140,11 +136,9 @@ impl LoopLab {
             now_ns: 0,
             end_ns: 0,
             slowness: SLOWNESS_AT_FIRST,
-            run_goes_on: true,
-            stage_was_alone: false,
         };
-        studio.choose_trace(0);
-        studio
+        lab.choose_trace(0);
+        lab
     }
 
     /// Lets playback continue with the second trace of the opening by itself, until [`end_opening`](Self::end_opening).
@@ -281,6 +275,10 @@ impl LoopLab {
     /// Returns the index of the chosen trace.
     pub fn trace(&self) -> usize {
         self.trace
+    }
+    /// Returns the chosen trace.
+    pub fn chosen_trace(&self) -> &FrameTrace {
+        &self.traces[self.trace]
     }
     /// Returns the chosen engine, or loop of a person.
     pub fn engine(&self) -> Option<&'static PolicyCard> {

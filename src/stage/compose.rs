@@ -277,8 +277,7 @@ impl BodyCell<'_> {
         };
         for lane in behind.chain([&self.front]) {
             let body = &lane.lane.bodies()[index];
-            let (look, coordinates) =
-                (Look::of(body), shown_state(&studio.deck, &studio.viewer, body).0);
+            let (look, coordinates) = (Look::of(body), shown_state(studio, body).0);
             let outline = look.outline(moment.t, &coordinates);
             let entry = studio.entry(lane);
             let (colour, dash) = moment.style(entry);
@@ -323,7 +322,7 @@ impl BodyCell<'_> {
             }
             let pulled = studio.deck.pulled().filter(|pulled| pulled.body == index);
             if let Some(pulled) = pulled.filter(|pulled| pulled.lane == lane.id) {
-                let handles = look.handles(&shown_state(&studio.deck, &studio.viewer, body).0);
+                let handles = look.handles(&shown_state(studio, body).0);
                 let ends = handles.get(pulled.handle).map(|handle| [handle.at, pulled.hand]);
                 for [handle, hand] in ends.into_iter().map(|ends| ends.map(|at| camera.points(at)))
                 {

@@ -62,7 +62,7 @@ pub(super) static LAYERS: [Layer; 11] = [
         take: |studio| {
             let is_race = studio.deck.mode() == Mode::Race;
             if is_race {
-                carry_out_on_stage(&mut studio.deck, &mut studio.viewer, StageCommand::ToggleRace);
+                carry_out_on_stage(studio, StageCommand::ToggleRace);
             }
             is_race
         },
@@ -95,7 +95,7 @@ fn let_go(studio: &mut Studio) -> bool {
         return studio.deck.let_go();
     }
     if studio.viewer.hz_at_press.is_some_and(|hz| hz != studio.deck.race().tick_hz()) {
-        carry_out_on_run(&mut studio.deck, &mut studio.viewer, RunCommand::Undo);
+        carry_out_on_run(studio, RunCommand::Undo);
     }
     true
 }

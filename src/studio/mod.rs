@@ -30,7 +30,7 @@ use crate::sim::integrators::Method;
 use clouding::wait_for_cloud;
 use driving::{advance, make_tick};
 use guiding::hint;
-use looping::title_of_loops;
+use looping::{OpenLab, title_of_loops};
 
 mod acting;
 mod ahead;
@@ -131,7 +131,7 @@ pub struct Studio {
     /// The person's view, and the texts beside it.
     pub viewer: Viewer,
     /// The loop lab, while the stage shows it and the run waits.
-    pub(crate) loops: Option<Box<LoopLab>>,
+    loops: Option<OpenLab>,
 }
 
 impl Studio {
@@ -240,12 +240,16 @@ impl Studio {
     }
     /// Returns the open loop lab, or `None` while the stage shows a run.
     pub fn loop_lab(&self) -> Option<&LoopLab> {
-        self.loops.as_deref()
+        self.loops.as_ref().map(|open| &*open.lab)
+    }
+
+    fn loop_lab_mut(&mut self) -> Option<&mut LoopLab> {
+        self.loops.as_mut().map(|open| &mut *open.lab)
     }
 
     /// Returns the title of the window, which people and tests read.
     pub fn title(&self) -> String {
-        if let Some(loops) = &self.loops {
+        if let Some(loops) = self.loop_lab() {
             return title_of_loops(&self.deck, loops);
         }
         let race = if self.mode() == Mode::Race { "race: " } else { "" };
@@ -262,12 +266,12 @@ impl Studio {
     /// Returns the next thing to try, which a run at rest, the guide, the scene or the program suggests. Keys stand
     /// between backticks.
     pub fn hint(&self) -> Option<String> {
-        hint(&self.deck, &self.viewer, self.loops.is_some())
+        hint(self)
     }
 
     /// Performs the actions at this tick, and steps to the next tick.
     pub fn tick(&mut self) {
-        make_tick(&mut self.deck, &mut self.viewer, &mut ());
+        make_tick(self, &mut ());
         self.deck.follow_with_compared(self.deck.race().t());
     }
 
@@ -286,32 +290,31 @@ impl Studio {
         observer: &mut dyn Observer,
     ) -> Due {
         let waits_for_cloud = wait_for_cloud(self, frame_ns);
-        let Self { deck, viewer, loops } = self;
-        if !deck.time_runs() {
-            viewer.live.jump();
+        if !self.deck.time_runs() {
+            self.viewer.live.jump();
             return Due::default();
         }
-        viewer.pass_time(frame_ns);
-        if let Some(loops) = loops {
+        self.viewer.pass_time(frame_ns);
+        if let Some(loops) = self.loop_lab_mut() {
             loops.advance(frame_ns);
             return Due::default();
         }
         if waits_for_cloud {
             return Due::default();
         }
-        advance(deck, viewer, last, frame_ns, is_time_left, observer)
+        advance(self, last, frame_ns, is_time_left, observer)
     }
 
     /// Returns the verdicts and the advice that the studio needs now, as described at [`analysis_request`].
     pub fn analysis_request(&self) -> AnalysisRequest {
-        analysis_request(&self.deck, &self.viewer)
+        analysis_request(self)
     }
 
     /// Computes all requested verdicts and advice at once.
     pub fn analyse(&mut self) {
-        if let Some(request) = unanswered_request(&self.deck, &self.viewer) {
+        if let Some(request) = unanswered_request(self) {
             let findings = AnalysisWorker::new(request).finish();
-            accept_findings(&mut self.deck, &mut self.viewer, findings);
+            accept_findings(self, findings);
         }
     }
 
@@ -319,7 +322,7 @@ impl Studio {
     pub fn accept(&mut self, found: Found) {
         match found {
             Found::Analysed(findings) => {
-                accept_findings(&mut self.deck, &mut self.viewer, *findings);
+                accept_findings(self, *findings);
             }
             Found::LoopRun(found) => accept_loop(self, *found),
             Found::Clouds(found) => accept_cloud(self, *found),

@@ -50,7 +50,7 @@ const MAX_DRAWN: usize = 12;
 const MARGIN: f64 = 0.16;
 
 pub(super) fn show(ui: &mut Ui, studio: &Studio, room: Vec2) {
-    let Some(step) = one_step(&studio.deck, &studio.viewer) else {
+    let Some(step) = one_step(studio) else {
         let why = "No next step: the body has halted under this method.";
         ui.label(RichText::new(why).color(palette(ui).dim));
         return;
@@ -151,9 +151,8 @@ fn plot(ui: &mut Ui, studio: &Studio, step: &OneStep, size: Vec2) {
     // The curves are the states that have the same energy as the present state, and as the landing.
     let mut curves = Vec::new();
     for (through, colour) in [(Some(step.from), palette.exact), (step.landing, own)] {
-        let lines = through
-            .map(|through| orbit(&studio.deck, &studio.viewer, through, area.bounds[0]))
-            .unwrap_or_default();
+        let lines =
+            through.map(|through| orbit(studio, through, area.bounds[0])).unwrap_or_default();
         let style = LineStyle::solid(colour.gamma_multiply(ORBIT), 1.0);
         let thin = LineStyle { dash: [6.0, 4.0], ..style };
         curves.extend(lines.into_iter().map(|line| Curve::new(thin, line)));

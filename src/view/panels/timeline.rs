@@ -87,7 +87,7 @@ pub(super) fn show(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) {
     write_failed_check(&painter, studio, &track);
     groups.iter().for_each(|group| draw_group(&painter, &track, group));
     // The handle is at the same moment as the stage and the plots.
-    let shown_s = shown_s(&studio.deck, &studio.viewer);
+    let shown_s = shown_s(studio);
     let present = span.x(shown_s, along);
     if along.expand(1.0).contains(present) {
         groove.handle(&painter, present, response.has_focus(), track.palette);
