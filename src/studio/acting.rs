@@ -16,7 +16,7 @@ use crate::sim::number::round;
 /// Performs an action on the run by hand.
 pub(super) fn act(studio: &mut Studio, action: Action) {
     if let Action::Set { body, parameter, value } = action
-        && let Some(of) = studio.deck.scene().bodies.get(body)
+        && let Some(of) = studio.scene().bodies.get(body)
         && of.kind.parameters.get(parameter).is_some_and(|it| it.acts == TakesEffect::AtStart)
     {
         let set = |start: &mut StartSettings| start.set(body, parameter, value);
@@ -29,7 +29,7 @@ pub(super) fn act(studio: &mut Studio, action: Action) {
     let replaces = studio.deck.run.replaces_open_action(&action);
     let (is_input, rests) =
         (action.input().is_some(), studio.deck.comes_to_rest(studio.viewer.motion()));
-    let before = matches!(action, Action::TickHz(_)).then(|| studio.deck.race().clone());
+    let before = matches!(action, Action::TickHz(_)).then(|| studio.race().clone());
     let (done, mut told) = studio.deck.with_notices(|run, notices| run.act_within(action, notices));
     studio.deck.edits -= u64::from(replaces);
     let Some(done) = done else {
@@ -44,10 +44,10 @@ pub(super) fn act(studio: &mut Studio, action: Action) {
     // The run starts, so that the person sees the effect of an input that was given at rest.
     studio.deck.running |= is_input && rests;
     if let Action::Lane { .. } = done.action {
-        studio.deck.run.next_mut().entry = studio.deck.active();
+        studio.deck.run.next_mut().entry = studio.active();
     }
     let discarded = was_past.then(|| {
-        let tick = studio.deck.race().tick();
+        let tick = studio.race().tick();
         format!("you changed the past at tick {tick}: Ctrl Z takes it back")
     });
     let released = done.released.map(|control| {
@@ -61,8 +61,8 @@ pub(super) fn pick(studio: &mut Studio, entry: MenuIndex) {
     let Some(lane) = studio.deck.lane_to_pick(entry) else { return };
     studio.deck.selected = lane;
     studio.deck.is_selected = true;
-    if studio.deck.mode() == Mode::Solo {
-        let spec = studio.deck.entries()[entry];
+    if studio.mode() == Mode::Solo {
+        let spec = studio.entries()[entry];
         act(studio, Action::Lane { lane, spec });
     }
     studio.deck.run.next_mut().entry = entry;
@@ -70,9 +70,9 @@ pub(super) fn pick(studio: &mut Studio, entry: MenuIndex) {
 
 /// Returns the menu index of a method. If the method is not on the menu, a notice explains why.
 pub(super) fn menu_index(studio: &mut Studio, method: &Method) -> Option<MenuIndex> {
-    let listed = studio.deck.entries().iter().position(|spec| spec.method == method);
+    let listed = studio.entries().iter().position(|spec| spec.method == method);
     if listed.is_none() {
-        let why = match studio.deck.scene().refusal(method) {
+        let why = match studio.scene().refusal(method) {
             Some(refusal) => refusal.to_string(),
             None => {
                 format!("{} is not on this scene's list: the scene does not name it", method.name)
@@ -90,7 +90,7 @@ pub(super) fn set_lane(studio: &mut Studio, spec: LaneSpec) {
     if !spec.is_in_range() {
         return studio.viewer.set_notice(out_of_range("the switch"));
     }
-    match (studio.deck.mode(), studio.deck.lane_of(entry)) {
+    match (studio.mode(), studio.deck.lane_of(entry)) {
         (Mode::Race, None) => {
             restart(studio, Some("the new race"), |next| {
                 next.list[entry] = spec;
@@ -104,7 +104,7 @@ pub(super) fn set_lane(studio: &mut Studio, spec: LaneSpec) {
             pick(studio, entry);
         }
         (Mode::Solo, _) => {
-            let lane = studio.deck.race().entrants()[0].id;
+            let lane = studio.race().entrants()[0].id;
             act(studio, Action::Lane { lane, spec });
         }
     }
@@ -112,10 +112,10 @@ pub(super) fn set_lane(studio: &mut Studio, spec: LaneSpec) {
 
 /// Gives the selected lane the next rule for impacts, in flight.
 pub(super) fn next_impact(studio: &mut Studio) {
-    if !studio.deck.scene().bodies.iter().any(|body| body.kind.has_walls) {
+    if !studio.scene().bodies.iter().any(|body| body.kind.has_walls) {
         return studio.viewer.set_notice("J changes how a ball bounces: open the scene ball");
     }
-    let Entrant { id: lane, spec, .. } = *studio.deck.selected();
+    let Entrant { id: lane, spec, .. } = *studio.selected();
     let mut around = IMPACTS.iter().cycle().skip_while(|&it| it != spec.impact).skip(1);
     let Some(impact) = around.find(|it| it.fits(spec.method)).filter(|it| *it != spec.impact)
     else {
@@ -130,9 +130,9 @@ pub(super) fn next_impact(studio: &mut Studio) {
 
 /// Picks the next available menu entry in this direction, cyclically.
 pub(super) fn pick_beside(studio: &mut Studio, step: Step) {
-    let count = studio.deck.entries().len();
+    let count = studio.entries().len();
     let beside = |entry: &usize| Some(step.cyclic_index(*entry, count));
-    let mut around = std::iter::successors(Some(studio.deck.active()), beside).skip(1).take(count);
+    let mut around = std::iter::successors(Some(studio.active()), beside).skip(1).take(count);
     if let Some(entry) = around.find(|&entry| studio.deck.lane_to_pick(entry).is_some()) {
         pick(studio, entry);
     }
@@ -140,11 +140,11 @@ pub(super) fn pick_beside(studio: &mut Studio, step: Step) {
 
 /// Switches equal cost on or off.
 pub(super) fn toggle_equal_cost(studio: &mut Studio) {
-    if studio.deck.mode() == Mode::Solo {
+    if studio.mode() == Mode::Solo {
         return studio.viewer.set_notice("equal cost needs a race: press C");
     }
     let lanes: Vec<(LaneId, LaneSpec)> =
-        studio.deck.race().entrants().iter().map(|entrant| (entrant.id, entrant.spec)).collect();
+        studio.race().entrants().iter().map(|entrant| (entrant.id, entrant.spec)).collect();
     let (wanted, before, notice) = match &studio.deck.run.next().before_equal_cost {
         Some(before) => {
             let of = |(lane, spec): &(LaneId, LaneSpec)| {
@@ -157,7 +157,7 @@ pub(super) fn toggle_equal_cost(studio: &mut Studio) {
         }
         None => {
             let specs: Vec<LaneSpec> = lanes.iter().map(|(_, spec)| *spec).collect();
-            let equal = equal_cost(studio.deck.scene(), &specs, studio.deck.race().tick_hz());
+            let equal = equal_cost(studio.scene(), &specs, studio.race().tick_hz());
             (
                 equal,
                 Some(lanes.clone()),
@@ -179,12 +179,12 @@ pub(super) fn step_by(studio: &mut Studio, ticks: i64) {
     if let Some(loops) = studio.loop_lab_mut() {
         return loops.step(ticks);
     }
-    let tick = studio.deck.race().tick().saturating_add_signed(ticks);
+    let tick = studio.race().tick().saturating_add_signed(ticks);
     seek(studio, tick);
-    while studio.deck.race().tick() < tick {
+    while studio.race().tick() < tick {
         make_tick(studio, &mut ());
     }
-    studio.deck.follow_with_compared(studio.deck.race().t());
+    studio.deck.follow_with_compared(studio.race().t());
     studio.deck.run.show_present();
 }
 

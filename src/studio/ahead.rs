@@ -27,8 +27,8 @@ pub fn one_step(studio: &Studio) -> Option<OneStep> {
 /// Returns the lines of constant energy through the state `through` in the displayed body's phase plane, for
 /// coordinates in `range`. There are none if the body has several coordinates, or if it conserves no energy.
 pub fn orbit(studio: &Studio, through: [f64; 2], range: [f64; 2]) -> Vec<Vec<[f64; 2]>> {
-    let body = &studio.deck.selected().lane.bodies()[studio.viewer.view.body];
-    measure::orbit(body, studio.deck.race().t(), through, range)
+    let body = &studio.selected().lane.bodies()[studio.viewer.view.body];
+    measure::orbit(body, studio.race().t(), through, range)
 }
 
 /// Whether the stage shows futures. It shows them while a person holds or drags the tick rate, for a second after a key

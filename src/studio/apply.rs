@@ -78,7 +78,7 @@ impl Studio {
         match command {
             ViewCommand::TogglePause => self.deck.running = !self.deck.running,
             ViewCommand::PointerDown(is_down) => {
-                self.viewer.hz_at_press = is_down.then(|| self.deck.race().tick_hz());
+                self.viewer.hz_at_press = is_down.then(|| self.race().tick_hz());
                 self.deck.tick_rate_is_held &= is_down;
                 self.deck.pulled.take_if(|_| !is_down);
             }
@@ -114,14 +114,7 @@ impl Studio {
             ViewCommand::ToggleEnlarged | ViewCommand::Enter => {
                 display.enlarged = !display.enlarged
             }
-            ViewCommand::Copy => {
-                let of_lane =
-                    |entry| [DriverRequest::CopyJoint(entry), DriverRequest::CopyMethod(entry)];
-                let pointed = self.viewer.pointed.map(of_lane);
-                let mut copies =
-                    pointed.into_iter().flatten().chain([DriverRequest::CopyInstrument]);
-                return copies.find_map(|copy| if_copyable(self, copy));
-            }
+            ViewCommand::Copy => return copy(self),
             ViewCommand::Language(language) => self.viewer.preferences.language = language,
             ViewCommand::CopyMethod { entry, language } => {
                 self.viewer.preferences.language = language;
@@ -191,6 +184,14 @@ fn moves_time(command: &Command) -> bool {
         Command::Run(run) => matches!(run, RunCommand::Seek(_) | RunCommand::WatchAgain),
         _ => false,
     }
+}
+
+/// Returns the request for the copy of the lane that is pointed at, or else of the instrument.
+fn copy(studio: &Studio) -> Option<DriverRequest> {
+    let of_lane = |entry| [DriverRequest::CopyJoint(entry), DriverRequest::CopyMethod(entry)];
+    let of_lane = studio.viewer.pointed.map(of_lane).into_iter().flatten();
+    let mut copies = of_lane.chain([DriverRequest::CopyInstrument]);
+    copies.find_map(|copy| if_copyable(studio, copy))
 }
 
 /// Returns the request, or `None` if it would leave the driver nothing to copy.

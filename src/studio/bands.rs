@@ -42,14 +42,14 @@ pub(super) fn toggle_band(studio: &mut Studio, entry: MenuIndex) -> MenuIndex {
     match shown.iter().position(|&band| band == entry) {
         Some(index) if shown.len() > 1 => _ = shown.remove(index),
         Some(_) => {}
-        None if studio.deck.lane_of(entry).is_none() => return studio.deck.active(),
+        None if studio.deck.lane_of(entry).is_none() => return studio.active(),
         None => {
             shown.push(entry);
             shown.sort_unstable();
         }
     }
     let is_there = |entry: MenuIndex| shown.contains(&entry).then_some(entry);
-    let selected = is_there(entry).or_else(|| is_there(studio.deck.active())).unwrap_or(shown[0]);
+    let selected = is_there(entry).or_else(|| is_there(studio.active())).unwrap_or(shown[0]);
     studio.viewer.view.bands = Some(shown);
     selected
 }

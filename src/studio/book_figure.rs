@@ -90,14 +90,14 @@ pub(super) fn open_figure(studio: &mut Studio, index: usize) {
         next.race_only(methods);
         next.mode = if methods.len() > 1 { Mode::Race } else { Mode::Solo };
     });
-    let ticks = (seconds * studio.deck.race().tick_hz().hz()).round() as u64;
+    let ticks = (seconds * studio.race().tick_hz().hz()).round() as u64;
     (0..ticks).for_each(|_| make_tick(studio, &mut ()));
     studio.deck.run.show_present();
     studio.deck.running = false;
     let display = &mut studio.viewer.preferences.display;
     (display.measure, display.enlarged) = (true, true);
     (display.instrument, display.quantity) = (Instrument::Motion, Some(*quantity));
-    let coordinate = studio.deck.past().coordinate(studio.deck.race(), 0).0;
+    let coordinate = studio.past().coordinate(studio.race(), 0).0;
     let up = format!("{} of 0, up", quantity.symbol(&coordinate));
     let axes = ["time t, along".to_owned(), up];
     studio.viewer.view.plot_ranges = axes.into_iter().zip(*view).collect();

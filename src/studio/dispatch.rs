@@ -8,7 +8,6 @@ use super::acting::{
 use super::bands::toggle_band;
 use super::command::{RunCommand, SPEED_LADDER, StageCommand, TICK_LADDER};
 use super::findings::select_best;
-use super::guiding::hint;
 use super::looping::{
     end_opening, leave_loop_lab, method_beside, set_loop_method, show_in_loop_lab,
 };
@@ -24,7 +23,7 @@ use crate::scene::Action;
 const FUTURES_NS: i64 = 1_000_000_000;
 
 pub(super) fn carry_out_on_run(studio: &mut Studio, command: RunCommand) {
-    let race = studio.deck.race();
+    let race = studio.race();
     match command {
         RunCommand::Act(action) => act(studio, action),
         RunCommand::SetLane(spec) => set_lane(studio, spec),
@@ -136,7 +135,7 @@ pub(super) fn carry_out_on_stage(studio: &mut Studio, command: StageCommand) {
         (StageCommand::Body(body), _) => open_on_stage(studio, |studio| {
             studio.viewer.view.body = body.min(studio.scene().bodies.len() - 1);
         }),
-        (StageCommand::ToggleArrangement, Some(loops)) => loops.toggle_overlay(),
+        (StageCommand::ToggleArrangement, Some(loops)) => loops.is_overlaid = !loops.is_overlaid,
         (StageCommand::ToggleArrangement, None) => studio.viewer.toggle_arrangement(),
         (StageCommand::Instrument(instrument), Some(_)) if !instrument.is_in_loop_lab() => {
             let name = instrument.name();
@@ -174,20 +173,20 @@ fn restart_by_hand(studio: &mut Studio) {
     studio.viewer.view.zoom_pans.clear();
     studio.viewer.view.bands = None;
     // A hint suggests the next step, and the old run is a click away on the timeline.
-    if restart_keeping_run(studio) && hint(studio).is_none() {
+    if restart_keeping_run(studio) && studio.hint().is_none() {
         studio.viewer.set_notice("restarted: Ctrl Z brings the run back");
     }
 }
 
 /// Switches between solo and race. Later scenes open in the chosen mode, unless the guide is open.
 fn toggle_race(studio: &mut Studio) {
-    match studio.deck.mode() {
+    match studio.mode() {
         Mode::Solo => {
             restart(studio, Some("the race"), |next| next.mode = Mode::Race);
             select_best(studio);
         }
         Mode::Race => {
-            let lane = studio.deck.selected().id;
+            let lane = studio.selected().id;
             act(studio, Action::Solo { lane });
             studio.deck.run.next_mut().mode = Mode::Solo;
             // The notice may be about a lane that has left the race.

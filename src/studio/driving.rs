@@ -44,7 +44,7 @@ pub(super) fn advance(
     let thousandths = slow_motion(studio);
     let mut due = studio.deck.clock.advance(frame_ns.saturating_mul(i64::from(thousandths)) / 1000);
     for made in 1..=due.ticks {
-        if studio.deck.race().tick() >= last {
+        if studio.race().tick() >= last {
             break;
         }
         pull(&mut studio.deck);

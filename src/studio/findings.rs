@@ -9,39 +9,41 @@ use crate::run::race::{Entrant, Interventions, Mode};
 use crate::scene::SceneBody;
 use crate::sim::bodies::{Parameter, Range, TakesEffect};
 
-/// Returns the request to an [`AnalysisWorker`] for the verdicts and the advice that the studio needs now. Each
-/// [offered](Deck::offered) method is judged at the present tick rate. In a race the rest of the menu is judged too.
-/// The advice is included while it is shown.
-///
-/// A verdict is of what follows the last change of the run, from the state that a lane had then. A method that a race
-/// lacks is judged from the true state. Advice is on the scene from its start, or from where a person last placed or
-/// kicked a body. It includes a person's settings, and the parameters that the script has set by the present tick.
-pub fn analysis_request(studio: &Studio) -> AnalysisRequest {
-    let flown = studio.race().entrants().iter().map(|lane| studio.entry(lane) + 1);
-    let first = flown.max().unwrap_or_default().max(studio.deck.offered());
-    let count = match studio.mode() {
-        Mode::Solo => first,
-        Mode::Race => studio.entries().len(),
-    };
-    let checkpoints = studio.run().checkpoints();
-    let by_hand = Interventions::in_race(studio.race(), checkpoints);
-    // Alone on the stage, a lane goes on from its state under whichever method is picked.
-    let lane = |entry| match studio.mode() {
-        Mode::Solo => studio.race().entrants().first(),
-        Mode::Race => studio.deck.lane_of(entry),
-    };
-    let lane = |entry| lane(entry).map(|lane| lane.id).filter(|&id| by_hand.differ_in(id));
-    AnalysisRequest {
-        scene: Arc::clone(&studio.deck.run.next().scene),
-        advised: Interventions::for_advice(studio.race(), checkpoints),
-        entries: (0..count).map(|entry| (studio.deck.spec(entry), lane(entry))).collect(),
-        by_hand,
-        first,
-        tick_hz: studio.deck.clock.tick_hz(),
-        advice: (studio.display().instrument == Instrument::Advice).then(|| advised_bodies(studio)),
-        map: (studio.display().instrument == Instrument::StabilityMap)
-            .then(|| map_request(studio))
-            .flatten(),
+impl Studio {
+    /// Returns the request to an [`AnalysisWorker`] for the verdicts and the advice that the studio needs now. Each
+    /// [offered](Deck::offered) method is judged at the present tick rate. In a race the rest of the menu is judged too.
+    /// The advice is included while it is shown.
+    ///
+    /// A verdict is of what follows the last change of the run, from the state that a lane had then. A method that a race
+    /// lacks is judged from the true state. Advice is on the scene from its start, or from where a person last placed or
+    /// kicked a body. It includes a person's settings, and the parameters that the script has set by the present tick.
+    pub fn analysis_request(&self) -> AnalysisRequest {
+        let flown = self.race().entrants().iter().map(|lane| self.entry(lane) + 1);
+        let first = flown.max().unwrap_or_default().max(self.deck.offered());
+        let count = match self.mode() {
+            Mode::Solo => first,
+            Mode::Race => self.entries().len(),
+        };
+        let checkpoints = self.run().checkpoints();
+        let by_hand = Interventions::in_race(self.race(), checkpoints);
+        // Alone on the stage, a lane goes on from its state under whichever method is picked.
+        let lane = |entry| match self.mode() {
+            Mode::Solo => self.race().entrants().first(),
+            Mode::Race => self.deck.lane_of(entry),
+        };
+        let lane = |entry| lane(entry).map(|lane| lane.id).filter(|&id| by_hand.differ_in(id));
+        AnalysisRequest {
+            scene: Arc::clone(&self.deck.run.next().scene),
+            advised: Interventions::for_advice(self.race(), checkpoints),
+            entries: (0..count).map(|entry| (self.deck.spec(entry), lane(entry))).collect(),
+            by_hand,
+            first,
+            tick_hz: self.deck.clock.tick_hz(),
+            advice: (self.display().instrument == Instrument::Advice).then(|| advised_bodies(self)),
+            map: (self.display().instrument == Instrument::StabilityMap)
+                .then(|| map_request(self))
+                .flatten(),
+        }
     }
 }
 
@@ -105,14 +107,14 @@ pub fn accept_findings(studio: &mut Studio, findings: Findings) {
 /// Selects the best lane of a race once all lanes are judged, because the first lane may be the first to leave the
 /// stage. Does nothing if anybody has selected a lane, or if the scene opens as a race under a method of its own.
 pub(super) fn select_best(studio: &mut Studio) {
-    let lanes = studio.deck.race().entrants();
-    let scene = studio.deck.scene();
+    let lanes = studio.race().entrants();
+    let scene = studio.scene();
     let is_of_scene = scene.opens_as_race && scene.opening_method.is_some();
-    if studio.deck.is_selected || is_of_scene || studio.deck.mode() == Mode::Solo {
+    if studio.deck.is_selected || is_of_scene || studio.mode() == Mode::Solo {
         return;
     }
     let judged = |lane: &Entrant| {
-        let entry = studio.deck.entry(lane);
+        let entry = studio.entry(lane);
         Some((studio.viewer.judged(entry)?.badness(), (lane.id, entry)))
     };
     let Some(judged) = lanes.iter().map(judged).collect::<Option<Vec<_>>>() else { return };
@@ -137,7 +139,7 @@ pub fn analyse_bounded(
 
 /// Returns the present request for verdicts and advice, or `None` if the findings answer all of it.
 pub fn unanswered_request(studio: &Studio) -> Option<AnalysisRequest> {
-    let request = analysis_request(studio);
+    let request = studio.analysis_request();
     let known = &studio.viewer.findings;
     (!known.as_ref().is_some_and(|known| known.answer(&request))).then_some(request)
 }

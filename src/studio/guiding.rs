@@ -138,7 +138,7 @@ pub(super) fn look_at_goal(studio: &mut Studio, was_asked: bool) {
         studio.deck.running = false;
     } else {
         let is_stepped = matches!(tour.stop().goal, Goal::SteppedTo(_));
-        studio.deck.running |= was_asked && !is_stepped && studio.deck.race().tick() == 0;
+        studio.deck.running |= was_asked && !is_stepped && studio.race().tick() == 0;
         tour.check_goal(&hint_context(studio));
     }
     studio.viewer.tour = Some(tour);
@@ -160,35 +160,39 @@ fn fan_hint(studio: &Studio) -> Option<String> {
     Some(hint.to_owned())
 }
 
-/// Returns the next thing to try, which a run at rest, the guide, the scene or the program suggests. Keys stand between
-/// backticks.
-pub(super) fn hint(studio: &Studio) -> Option<String> {
-    if let Some(rest) = rest_hint(studio) {
-        return Some(rest);
+impl Studio {
+    /// Returns the next thing to try, which a run at rest, the guide, the scene or the program suggests. Keys stand
+    /// between backticks.
+    pub fn hint(&self) -> Option<String> {
+        if let Some(rest) = rest_hint(self) {
+            return Some(rest);
+        }
+        if let Some(tour) = &self.viewer.tour {
+            let is_last = tour.index() + 1 == STOPS.len();
+            let next = match (tour.is_done(), is_last) {
+                _ if tour.is_asking() => {
+                    "Time and numbers wait for your prediction. `Page Down` skips it, `Esc` closes the guide."
+                }
+                (true, true) => "That was the last stop. Press `Esc` to close the guide.",
+                (true, false) => {
+                    "Press `Page Down` for the next stop, or `Esc` to close the guide."
+                }
+                (false, _) => {
+                    "`Page Down` goes to the next stop, `Page Up` back, `Esc` closes the guide."
+                }
+            };
+            return Some(next.to_owned());
+        }
+        if let Some(fan) = fan_hint(self) {
+            return Some(fan);
+        }
+        let from_start =
+            self.viewer.verdict(self.active()).filter(|verdict| verdict.starts_at_s == 0.0);
+        let outcome = from_start.map(|verdict| verdict.outcome());
+        let mut now = hint_context(self);
+        now.is_lost |= matches!(outcome, Some(Outcome::BlewUp | Outcome::GaveUp));
+        self.viewer.hints.text(&now, outcome)
     }
-    if let Some(tour) = &studio.viewer.tour {
-        let is_last = tour.index() + 1 == STOPS.len();
-        let next = match (tour.is_done(), is_last) {
-            _ if tour.is_asking() => {
-                "Time and numbers wait for your prediction. `Page Down` skips it, `Esc` closes the guide."
-            }
-            (true, true) => "That was the last stop. Press `Esc` to close the guide.",
-            (true, false) => "Press `Page Down` for the next stop, or `Esc` to close the guide.",
-            (false, _) => {
-                "`Page Down` goes to the next stop, `Page Up` back, `Esc` closes the guide."
-            }
-        };
-        return Some(next.to_owned());
-    }
-    if let Some(fan) = fan_hint(studio) {
-        return Some(fan);
-    }
-    let from_start =
-        studio.viewer.verdict(studio.active()).filter(|verdict| verdict.starts_at_s == 0.0);
-    let outcome = from_start.map(|verdict| verdict.outcome());
-    let mut now = hint_context(studio);
-    now.is_lost |= matches!(outcome, Some(Outcome::BlewUp | Outcome::GaveUp));
-    studio.viewer.hints.text(&now, outcome)
 }
 
 #[cfg(test)]

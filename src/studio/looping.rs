@@ -38,21 +38,21 @@ pub fn loop_lab_refusal(studio: &Studio) -> Option<String> {
 /// Opens the loop lab with the displayed body, unless the body is [refused](loop_lab_refusal).
 pub(super) fn open_loop_lab(studio: &mut Studio) {
     let body = studio.viewer.view.body;
-    let flown = studio.deck.selected().spec.method;
+    let flown = studio.selected().spec.method;
     // A run that has begun goes on in the lab under its method and at its rate, as far as the lab has them.
-    let has_begun = studio.deck.race().tick() > 0;
+    let has_begun = studio.race().tick() > 0;
     let usual = method(METHOD_AT_FIRST).expect("a built-in method");
     let method = if has_begun { flown } else { usual };
     if let Some(refusal) = loop_lab_refusal(studio) {
         return studio.viewer.set_notice(refusal);
     }
-    let mut loops = LoopLab::new(studio.deck.scene(), body, method);
+    let mut loops = LoopLab::new(studio.scene(), body, method);
     let run_goes_on = studio.deck.running;
-    let stage_was_alone = !studio.viewer.display().measure;
+    let stage_was_alone = !studio.display().measure;
     studio.viewer.preferences.display.measure = true;
     if has_begun {
-        loops.set_tick_hz(studio.deck.race().tick_hz());
-        loops.set_slowness(slowness_of(studio.deck.clock().speed_percent()));
+        loops.set_tick_hz(studio.race().tick_hz());
+        loops.set_slowness(slowness_of(studio.clock().speed_percent()));
     } else {
         loops.play_opening();
     }
@@ -100,7 +100,7 @@ pub(super) fn leave_loop_lab(studio: &mut Studio) -> bool {
     studio.deck.running = open.run_goes_on;
     studio.viewer.preferences.display.measure = !open.stage_was_alone;
     studio.viewer.notice = None;
-    if studio.viewer.display().instrument == Instrument::Loop {
+    if studio.display().instrument == Instrument::Loop {
         studio.viewer.preferences.display.instrument = Instrument::Motion;
     }
     if studio.viewer.tour.is_none() {
@@ -236,7 +236,7 @@ pub(super) fn change_loop_lab(studio: &mut Studio, command: LoopCommand) {
         LoopCommand::ToggleOnStage(index) => loops.toggle(index),
         LoopCommand::Trace(index) => loops.choose_trace(index),
         LoopCommand::Slowness(slowness) => loops.set_slowness(slowness),
-        LoopCommand::ShowGameTime(shows_it) => loops.show_game_time(shows_it),
+        LoopCommand::ShowGameTime(shows_it) => loops.shows_game_time = shows_it,
         LoopCommand::Seek(now_ns) => {
             loops.seek(now_ns);
             studio.deck.running = false;

@@ -137,7 +137,7 @@ pub(super) fn open_as(studio: &mut Studio, name: &str, scene: Scene, mode: Mode)
 /// tick 0. A notice reports if the person's actions were left out.
 pub fn reload_file(studio: &mut Studio, path: &Path, scene: Scene) {
     let is_open = studio.deck.scene_list.open_path() == Some(path);
-    let tick = studio.deck.race().tick();
+    let tick = studio.race().tick();
     let before = studio.deck.scene_list.open().map(|index| studio.deck.scene_list.scene(index));
     let is_equal = before.as_ref().is_some_and(|before| before.to_toml() == scene.to_toml());
     let keeps = before.is_some_and(|before| is_alike(&before, &scene));
@@ -258,7 +258,7 @@ fn run_again(studio: &mut Studio, index: usize, tick: u64) {
 
 /// Shows the clouds with which the scene opens, if any, in place of the stage.
 pub fn show_clouds_of_scene(studio: &mut Studio) {
-    let Some(shape) = studio.deck.scene().clouds else { return };
+    let Some(shape) = studio.scene().clouds else { return };
     let display = &mut studio.viewer.preferences.display;
     (display.instrument, display.enlarged) = (Instrument::Cloud, true);
     display.cloud.shape = shape;

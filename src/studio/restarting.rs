@@ -20,7 +20,7 @@ pub(super) enum Jump {
 
 /// Updates the clock, the plots, the hand and the selection after a jump of the run.
 pub(super) fn follow(studio: &mut Studio, jump: Jump) {
-    studio.deck.clock.set_tick_hz(studio.deck.race().tick_hz());
+    studio.deck.clock.set_tick_hz(studio.race().tick_hz());
     studio.viewer.live.jump();
     if jump != Jump::ToAnotherTick {
         studio.deck.let_go();
@@ -33,7 +33,7 @@ pub(super) fn follow(studio: &mut Studio, jump: Jump) {
         studio.deck.dropped = 0;
         (studio.viewer.notice, studio.deck.compared) = (None, None);
     }
-    studio.deck.follow_with_compared(studio.deck.race().t());
+    studio.deck.follow_with_compared(studio.race().t());
     studio.deck.run.show_present();
 }
 
@@ -60,16 +60,15 @@ pub(super) fn restart_keeping_run(studio: &mut Studio) -> bool {
     let is_edited = !Arc::ptr_eq(studio.deck.run.session().scene(), &studio.deck.run.next().scene);
     let keeps = is_by_hand(&studio.deck.run) || is_edited;
     let (earlier, ending) =
-        (studio.deck.run_before.take(), EndingRun::of(&studio.deck.run, studio.deck.selected()));
+        (studio.deck.run_before.take(), EndingRun::of(&studio.deck.run, studio.selected()));
     let start = studio.deck.run.start().clone();
     restart(studio, keeps.then_some("the restart"), |_| ());
     if !is_edited {
-        let beside = ending
-            .as_ref()
-            .and_then(|it| it.beside(start, &studio.deck.run, studio.deck.selected()));
+        let beside =
+            ending.as_ref().and_then(|it| it.beside(start, &studio.deck.run, studio.selected()));
         studio.deck.run_beside = beside.map(Box::new);
         studio.deck.run_before = ending
-            .and_then(|ending| ending.before(&studio.deck.run, studio.deck.selected()))
+            .and_then(|ending| ending.before(&studio.deck.run, studio.selected()))
             .or(earlier);
     }
     keeps
@@ -98,8 +97,8 @@ fn exchange(studio: &mut Studio, exchange: fn(&mut Run) -> bool, notice: &str) {
         return studio.viewer.set_notice(notice);
     }
     // The selection stays, because selecting a lane is not an edit.
-    let is_there = studio.deck.race().entrant(studio.deck.selected).is_some();
-    if studio.deck.mode() == Mode::Race && is_there {
+    let is_there = studio.race().entrant(studio.deck.selected).is_some();
+    if studio.mode() == Mode::Race && is_there {
         studio.deck.run.next_mut().entry = entry;
     } else {
         studio.deck.select_entry_of_start();
@@ -115,7 +114,7 @@ fn exchange(studio: &mut Studio, exchange: fn(&mut Run) -> bool, notice: &str) {
 /// Shows this coordinate of a body in the plots. This may repeat the run. If that would take too long, the coordinate
 /// is plotted only after the next restart.
 pub(super) fn plot_coordinate(studio: &mut Studio, body: usize, coordinate: usize) {
-    let Some(of) = studio.deck.race().truth().bodies().get(body) else { return };
+    let Some(of) = studio.race().truth().bodies().get(body) else { return };
     let Some(chosen) = of.coordinates().get(coordinate) else { return };
     let name = chosen.name;
     studio.viewer.view.choose_coordinate(body, coordinate);
@@ -129,11 +128,11 @@ pub(super) fn plot_coordinate(studio: &mut Studio, body: usize, coordinate: usiz
 pub(super) fn record_chosen_coordinates(studio: &mut Studio) -> bool {
     let chosen = &studio.viewer.view.coordinates;
     let coordinate = |(index, usual): (usize, usize)| {
-        let count = studio.deck.race().truth().bodies()[index].coordinates().len();
+        let count = studio.race().truth().bodies()[index].coordinates().len();
         let chosen = chosen.get(index).copied().flatten();
         chosen.filter(|&index| index < count).unwrap_or(usual)
     };
-    let bodies = studio.deck.race().truth().bodies().iter();
+    let bodies = studio.race().truth().bodies().iter();
     let usual = bodies.map(|body| body.plotted_coordinate()).enumerate();
     let coordinates: Vec<usize> = usual.map(coordinate).collect();
     studio.deck.run.record_coordinates(&coordinates)

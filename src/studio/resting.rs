@@ -71,7 +71,7 @@ pub(super) fn watch_again(studio: &mut Studio) {
     let Some(tick) = studio.deck.lost_at() else {
         return studio.viewer.set_notice("nothing has halted in this lane");
     };
-    let lead = ((LEAD_S * f64::from(studio.deck.race().tick_hz())) as u64).max(MIN_LEAD);
+    let lead = ((LEAD_S * f64::from(studio.race().tick_hz())) as u64).max(MIN_LEAD);
     seek(studio, tick.saturating_sub(lead));
     studio.viewer.notice = None;
     studio.deck.running = true;
