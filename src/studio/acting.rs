@@ -172,8 +172,8 @@ pub(super) fn toggle_equal_cost(studio: &mut Studio) {
     studio.viewer.set_notice(notice);
 }
 
-/// Pauses and moves by `ticks` ticks of the run or frames of the loop lab: forward if the number is positive, back if it
-/// is negative.
+/// Pauses and moves by `ticks` ticks of the run, or frames of the loop lab: forward if the number is positive, back if
+/// it is negative.
 pub(super) fn step_by(studio: &mut Studio, ticks: i64) {
     studio.deck.running = false;
     if let Some(loops) = studio.loop_lab_mut() {

@@ -66,10 +66,7 @@ pub(super) fn carry_out_on_stage(studio: &mut Studio, command: StageCommand) {
     let display = &mut studio.viewer.preferences.display;
     let loops = studio.loops.as_mut().map(|open| &mut *open.lab);
     match (command, loops) {
-        (StageCommand::Method(method), Some(loops)) => {
-            let notice = set_loop_method(loops, method);
-            studio.viewer.set_notice(notice);
-        }
+        (StageCommand::Method(method), Some(_)) => set_loop_method(studio, method),
         (StageCommand::Method(method), None) => {
             if let Some(entry) = menu_index(studio, method) {
                 pick(studio, entry);
@@ -77,8 +74,7 @@ pub(super) fn carry_out_on_stage(studio: &mut Studio, command: StageCommand) {
         }
         (StageCommand::MethodBeside(step), Some(loops)) => {
             let beside = method_beside(loops, step);
-            let notice = set_loop_method(loops, beside);
-            studio.viewer.set_notice(notice);
+            set_loop_method(studio, beside);
         }
         (StageCommand::MethodBeside(step), None) => pick_beside(studio, step),
         (StageCommand::Pick(index), Some(loops)) => loops.select(index),

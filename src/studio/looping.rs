@@ -251,13 +251,17 @@ pub(super) fn method_beside(loops: &LoopLab, step: Step) -> &'static Method {
     methods[step.cyclic_index(index, methods.len())]
 }
 
-/// Steps every loop by a method. Returns the notice about it.
-pub(super) fn set_loop_method(loops: &mut LoopLab, method: &'static Method) -> String {
-    if let Some(refusal) = loops.scene().refusal(method) {
-        return refusal.to_string();
-    }
-    loops.set_method(method);
-    format!("every loop steps by {}", method.name)
+/// Steps every loop by a method, with a notice.
+pub(super) fn set_loop_method(studio: &mut Studio, method: &'static Method) {
+    let Some(loops) = studio.loop_lab_mut() else { return };
+    let notice = match loops.scene().refusal(method) {
+        Some(refusal) => refusal.to_string(),
+        None => {
+            loops.set_method(method);
+            format!("every loop steps by {}", method.name)
+        }
+    };
+    studio.viewer.set_notice(notice);
 }
 
 pub(super) fn title_of_loops(deck: &Deck, loops: &LoopLab) -> String {
