@@ -289,8 +289,7 @@ impl App {
 
     /// Searches for advice on the spring that a person has described. If it is stiff, this takes longer than a frame.
     fn advise_on_spring(&self) {
-        let Studio { deck, viewer, .. } = &self.frames.studio;
-        let (spring, tick_hz) = described_spring(deck, viewer);
+        let (spring, tick_hz) = described_spring(&self.frames.studio);
         let proxy = self.proxy.clone();
         thread::spawn(move || {
             _ = proxy.send_event(match caught(|| spring.advised_scene(tick_hz)) {

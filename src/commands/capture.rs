@@ -177,7 +177,7 @@ pub(super) fn run(args: &CaptureArgs) -> Result<(), Error> {
     let experiment = Experiment { loop_trace: args.loop_trace, ..experiment };
     let studio = experiment.studio();
     if args.loop_trace.is_some()
-        && let Some(refusal) = loop_lab_refusal(&studio.deck, &studio.viewer)
+        && let Some(refusal) = loop_lab_refusal(&studio)
     {
         return Err(Error::mistake(format!("--loop: {refusal}")));
     }

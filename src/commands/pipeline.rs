@@ -191,9 +191,7 @@ pub(super) fn complete_analysis(
 ) -> bool {
     run_loops(studio);
     if renderer.panels() == Panels::Shown {
-        analyse_bounded(&mut studio.deck, &mut studio.viewer, |worker| {
-            jobs::result(interrupted, move || worker.finish())
-        });
+        analyse_bounded(studio, |worker| jobs::result(interrupted, move || worker.finish()));
         complete_clouds(studio, clouds, || interrupted.load(Ordering::Relaxed));
     }
     !interrupted.load(Ordering::Relaxed)

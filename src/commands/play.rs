@@ -138,7 +138,7 @@ pub(super) fn run(args: &PlayArgs) -> Result<(), Error> {
     studio.viewer.preferences.display.motion =
         if args.reduced_motion { Motion::Reduced } else { Motion::Live };
     if loop_trace.is_none() {
-        show_clouds_of_scene(&mut studio.deck, &mut studio.viewer);
+        show_clouds_of_scene(&mut studio);
     }
     let opens_at_work = args.race || loop_trace.is_some();
     let shown = SavedPreferences {

@@ -198,6 +198,34 @@ struct Drive {
     limits: Vec<DriveLimits>,
 }
 
+fn asked_engines(asked: &[Target]) -> Vec<&'static Method> {
+    let is_asked = |method: &&Method| {
+        let asks = |asked: &Target| match asked {
+            Target::Engines => true,
+            Target::Engine(asked) => asked == method,
+            Target::UiSprings | Target::UiSpring(_) => false,
+        };
+        asked.iter().any(asks)
+    };
+    engines().filter(is_asked).collect()
+}
+
+/// Returns the dialects, each once.
+fn asked_dialects(asked: &[Target]) -> Vec<&'static UiSpring> {
+    let asked = asked.iter().flat_map(|asked| match asked {
+        Target::UiSprings => UI_SPRINGS,
+        Target::UiSpring(dialect) => std::slice::from_ref(*dialect),
+        Target::Engines | Target::Engine(_) => &[],
+    });
+    let mut dialects: Vec<&'static UiSpring> = Vec::new();
+    for dialect in asked {
+        if !dialects.iter().any(|known| std::ptr::eq(*known, dialect)) {
+            dialects.push(dialect);
+        }
+    }
+    dialects
+}
+
 pub(super) fn run(args: &PortArgs) -> Result<(), Error> {
     let from = args.from.as_deref().map(|written| {
         WishSource::parse(written, args.tick_hz(), args.mass)
@@ -260,27 +288,8 @@ pub(super) fn run(args: &PortArgs) -> Result<(), Error> {
         },
     };
     let asked = if args.to.is_empty() { &[usual][..] } else { &args.to[..] };
-    let is_asked = |method: &&Method| {
-        let asks = |asked: &Target| match asked {
-            Target::Engines => true,
-            Target::Engine(asked) => asked == method,
-            Target::UiSprings | Target::UiSpring(_) => false,
-        };
-        asked.iter().any(asks)
-    };
-    let methods: Vec<&Method> = engines().filter(is_asked).collect();
-    let setups = setups(Some(&methods), tick_hz, args.substeps);
-    let asked = asked.iter().flat_map(|asked| match asked {
-        Target::UiSprings => UI_SPRINGS,
-        Target::UiSpring(dialect) => std::slice::from_ref(*dialect),
-        Target::Engines | Target::Engine(_) => &[],
-    });
-    let mut dialects: Vec<&UiSpring> = Vec::new();
-    for dialect in asked {
-        if !dialects.iter().any(|known| std::ptr::eq(*known, dialect)) {
-            dialects.push(dialect);
-        }
-    }
+    let setups = setups(Some(&asked_engines(asked)), tick_hz, args.substeps);
+    let dialects = asked_dialects(asked);
     for (option, is_given) in [("--drive", args.drive), ("--substeps", args.substeps.is_some())] {
         if is_given && setups.is_empty() || args.drive && !dialects.is_empty() {
             return Err(Error::mistake(format!(

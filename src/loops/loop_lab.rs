@@ -90,16 +90,14 @@ pub struct LoopLab {
     plays_opening: bool,
     /// Index of the plotted metric in [`FRAME_METRICS`].
     metric: usize,
-    is_overlaid: bool,
-    shows_game_time: bool,
+    /// Whether the lanes on the stage overlap instead of lying below each other.
+    pub is_overlaid: bool,
+    /// Whether the instrument shows game time over real time instead of the moments shown.
+    pub shows_game_time: bool,
     selected: usize,
     now_ns: i64,
     end_ns: i64,
     slowness: u32,
-    /// Whether the run resumes on leaving the loop lab.
-    pub run_goes_on: bool,
-    /// Whether the stage was shown without instruments before the loop lab opened.
-    pub stage_was_alone: bool,
 }
 
 impl LoopLab {
@@ -140,8 +138,6 @@ impl LoopLab {
             now_ns: 0,
             end_ns: 0,
             slowness: SLOWNESS_AT_FIRST,
-            run_goes_on: true,
-            stage_was_alone: false,
         };
         lab.choose_trace(0);
         lab
@@ -282,6 +278,10 @@ impl LoopLab {
     pub fn trace(&self) -> usize {
         self.trace
     }
+    /// Returns the chosen trace.
+    pub fn chosen_trace(&self) -> &FrameTrace {
+        &self.traces[self.trace]
+    }
     /// Returns the chosen engine, or loop of a person.
     pub fn engine(&self) -> Option<&'static PolicyCard> {
         self.engine
@@ -353,14 +353,6 @@ impl LoopLab {
     pub fn on_stage(&self) -> &[usize] {
         &self.on_stage
     }
-    /// Whether the lanes on the stage overlap instead of lying below each other.
-    pub fn is_overlaid(&self) -> bool {
-        self.is_overlaid
-    }
-    /// Whether the instrument shows game time over real time instead of the moments shown.
-    pub fn shows_game_time(&self) -> bool {
-        self.shows_game_time
-    }
     /// Returns the index of the selected lane.
     pub fn selected(&self) -> usize {
         self.selected
@@ -430,16 +422,6 @@ impl LoopLab {
     /// Sets the slow-motion factor, clamped to the range of [`SLOWNESS`].
     pub fn set_slowness(&mut self, slowness: u32) {
         self.slowness = slowness.clamp(SLOWNESS[0], SLOWNESS[SLOWNESS.len() - 1]);
-    }
-
-    /// Switches between overlapping lanes and lanes below each other.
-    pub fn toggle_overlay(&mut self) {
-        self.is_overlaid = !self.is_overlaid;
-    }
-
-    /// Shows game time over real time, or the moments shown.
-    pub fn show_game_time(&mut self, shows_it: bool) {
-        self.shows_game_time = shows_it;
     }
 
     /// Selects the lane with this index and puts it on the stage.

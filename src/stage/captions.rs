@@ -303,11 +303,11 @@ fn beside_name(moment: &DrawContext<'_>, index: usize, body: &LaneBody) -> (Stri
         None if studio.viewer.is_asked() => String::new(),
         None => {
             let truth = &studio.race().truth().bodies()[index];
-            let (q, v) = shown_truth(&studio.deck, &studio.viewer, index);
+            let (q, v) = shown_truth(studio, index);
             let motion = Look::of(truth).describe_motion(&q, &v);
             // The bar above the instruments says it too.
             let is_told = index == 0 && !studio.display().measure;
-            let pace = pace_in_words(&studio.deck, &studio.viewer).filter(|_| is_told);
+            let pace = pace_in_words(studio).filter(|_| is_told);
             motion.into_iter().chain(pace).collect::<Vec<_>>().join(" · ")
         }
     };
@@ -323,7 +323,7 @@ pub(super) fn speed(
     entrant: &Entrant,
 ) {
     let body = &entrant.lane.bodies()[index];
-    let (q, v) = shown_state(&moment.studio.deck, &moment.studio.viewer, body);
+    let (q, v) = shown_state(moment.studio, body);
     let outline = Look::of(body).outline(moment.t, &q);
     let bow = outline.marks.iter().find_map(|mark| match mark {
         Mark::Hull { length, .. } if !has_several_coordinates(body) => {

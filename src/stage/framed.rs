@@ -181,7 +181,7 @@ impl DrawContext<'_> {
         // Bodies on one ruler move together across.
         let [across, own] = [view.zoomed_as, index].map(|body| {
             let body = &self.studio.selected().lane.bodies()[body];
-            let (q, _) = shown_state(&self.studio.deck, &self.studio.viewer, body);
+            let (q, _) = shown_state(self.studio, body);
             rect.part(camera.points(Look::of(body).outline(self.t, &q).at))
         });
         camera.zoomed(zoom_pan.keeping([across[0], own[1]]))

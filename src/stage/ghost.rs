@@ -36,7 +36,7 @@ impl Ghost {
         // needs it.
         let is_needed = moment.studio.display().ghost || matches!(framing, Framing::Follow { .. });
         let (q, v) = match is_needed {
-            true => shown_truth(&moment.studio.deck, &moment.studio.viewer, index),
+            true => shown_truth(moment.studio, index),
             false => (body.stepper.q().to_vec(), body.stepper.v().to_vec()),
         };
         let course = look.course(&q, &v);

@@ -44,7 +44,7 @@ pub(super) fn compose(studio: &Studio, loops: &LoopLab, size: [f32; 2]) -> Pictu
     let has_ruler = size[1] >= breakpoints::RULER;
     let top = if has_ruler { chart::RULER } else { 0.0 };
     let ground = Rect { min: [0.0, top], max: size };
-    let ruled = match loops.is_overlaid() {
+    let ruled = match loops.is_overlaid {
         true => overlay(&mut picture, studio, loops, ground),
         false => side_by_side(&mut picture, studio, loops, ground),
     };

@@ -19,6 +19,7 @@ use regatta_studio as studio;
 mod apex;
 mod bands;
 mod body;
+mod body_cell;
 mod breakpoints;
 mod captions;
 mod chart;

@@ -32,7 +32,7 @@ impl<'a> DrawContext<'a> {
         Self {
             studio,
             palette: studio.display().theme.palette(),
-            t: shown_s(&studio.deck, &studio.viewer),
+            t: shown_s(studio),
             bands: studio.bands(),
             paper_s: match studio.scene().checks.is_empty() {
                 true => (PAPER * studio.scene().seconds).min(MAX_PAPER_S),
@@ -118,7 +118,7 @@ mod tests {
                     assert!(are_near, "{way:?}: {places:?}, not {wanted:?}");
                 }
                 assert_eq!(said, format!("{} m/s", significant(speed, 3)));
-                assert_eq!(shown_s(&studio.deck, &studio.viewer), studio.race().t());
+                assert_eq!(shown_s(&studio), studio.race().t());
                 studio.apply(RunCommand::NextInterpolation);
             }
         }
@@ -133,14 +133,13 @@ mod tests {
             studio.advance(100_000_000);
             for way in Interpolation::ALL {
                 let ([[block, ghost], [ship, true_ship]], said) = drawn_places(&studio);
-                let t = shown_s(&studio.deck, &studio.viewer);
+                let t = shown_s(&studio);
                 let exact = libm::cos(std::f64::consts::TAU * t);
                 assert!(is_near(ghost, exact), "{way:?}: {ghost} at {t} s");
                 let exact = 20.0 * (t + 10.0 * libm::expm1(-t / 10.0));
                 assert!(is_near(true_ship, exact), "{way:?}: {true_ship} at {t} s");
                 let bodies = studio.race().entrants()[0].lane.bodies();
-                let [spring, state] =
-                    [0, 1].map(|body| shown_state(&studio.deck, &studio.viewer, &bodies[body]));
+                let [spring, state] = [0, 1].map(|body| shown_state(&studio, &bodies[body]));
                 assert!(is_near(block, spring.0[0]) && is_near(ship, state.0[0]), "{way:?}");
                 assert_eq!(said, format!("{} m/s", significant(state.1[0], 3)), "{way:?}");
                 studio.apply(RunCommand::NextInterpolation);
@@ -155,7 +154,7 @@ mod tests {
             studio.advance(137_000_000);
             for _ in Interpolation::ALL {
                 let body = &studio.race().entrants()[0].lane.bodies()[0];
-                let (_, v) = shown_state(&studio.deck, &studio.viewer, body);
+                let (_, v) = shown_state(&studio, body);
                 let ends = [body.previous_v[0], body.stepper.v()[0]];
                 let [low, high] = [ends[0].min(ends[1]), ends[0].max(ends[1])];
                 let way = studio.display().interpolation;

@@ -2,7 +2,6 @@
 
 use super::Studio;
 use super::deck::Deck;
-use super::viewer::Viewer;
 use crate::look::{Framing, Look};
 use crate::measure;
 use crate::measure::{FutureCurve, OneStep};
@@ -12,14 +11,14 @@ use crate::sim::stability::Tick;
 
 /// Returns the anatomy of the next tick of the displayed body in the selected lane, or `None` if the body has halted.
 /// While a person is [asked](Viewer::is_asked) for a prediction, the anatomy omits the end of the tick.
-pub fn one_step(deck: &Deck, viewer: &Viewer) -> Option<OneStep> {
-    let (entrant, race) = (deck.selected(), deck.race());
+pub fn one_step(studio: &Studio) -> Option<OneStep> {
+    let (entrant, race) = (studio.selected(), studio.race());
     let spec = entrant.spec;
     let h = race.tick_hz().step_s();
     let tick = Tick { t: race.t(), h, substeps: spec.substeps };
-    let of = &entrant.lane.bodies()[viewer.view.body];
+    let of = &entrant.lane.bodies()[studio.viewer.view.body];
     let step = measure::one_step(of, spec, race.tick(), tick)?;
-    Some(match viewer.is_asked() {
+    Some(match studio.viewer.is_asked() {
         true => OneStep { landing: None, chain: Vec::new(), growth: None, ..step },
         false => step,
     })
@@ -27,26 +26,21 @@ pub fn one_step(deck: &Deck, viewer: &Viewer) -> Option<OneStep> {
 
 /// Returns the lines of constant energy through the state `through` in the displayed body's phase plane, for
 /// coordinates in `range`. There are none if the body has several coordinates, or if it conserves no energy.
-pub fn orbit(
-    deck: &Deck,
-    viewer: &Viewer,
-    through: [f64; 2],
-    range: [f64; 2],
-) -> Vec<Vec<[f64; 2]>> {
-    let body = &deck.selected().lane.bodies()[viewer.view.body];
-    measure::orbit(body, deck.race().t(), through, range)
+pub fn orbit(studio: &Studio, through: [f64; 2], range: [f64; 2]) -> Vec<Vec<[f64; 2]>> {
+    let body = &studio.selected().lane.bodies()[studio.viewer.view.body];
+    measure::orbit(body, studio.race().t(), through, range)
 }
 
 /// Whether the stage shows futures. It shows them while a person holds or drags the tick rate, for a second after a key
 /// has changed the rate, or on request while time stands still. None are shown before a prediction.
 pub fn shows_futures(studio: &Studio) -> bool {
-    let is_dragged = studio.viewer.hz_at_press.is_some_and(|hz| hz != studio.deck.race().tick_hz());
+    let is_dragged = studio.viewer.hz_at_press.is_some_and(|hz| hz != studio.race().tick_hz());
     studio.loop_lab().is_none()
         && !studio.viewer.is_asked()
         && (studio.deck.is_tick_rate_held()
             || is_dragged
             || studio.viewer.futures_left_ns > 0
-            || studio.viewer.display().futures && !studio.deck.time_runs())
+            || studio.display().futures && !studio.deck.time_runs())
 }
 
 /// Returns why the stage draws no futures of a body of the selected lane, if it draws none.

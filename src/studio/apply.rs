@@ -9,18 +9,16 @@ use super::book_figure::{figure_of_digit, open_figure};
 use super::command::{
     Command, RunCommand, SCALE_LADDER, StageCommand, USUAL_SCALE_PERCENT, ViewCommand,
 };
-use super::deck::Deck;
 use super::dispatch::{carry_out_on_run, carry_out_on_stage};
 use super::display::DriverRequest;
 use super::escaping::escape;
 use super::guiding::{go_to_stop, go_to_stop_beside, look_at_goal, toggle_guide};
 use super::joint::joint_code;
-use super::looping::{carry_out_in_loop_lab, change_loop_lab, open_loop_lab, refuse_in_loop_lab};
+use super::looping::{change_loop_lab, refuse_in_loop_lab};
 use super::my_lines::{read_lines, run_lines};
 use super::opening::described_spring;
 use super::restarting::plot_coordinate;
-use super::viewer::{Dialog, Viewer};
-use crate::loops::loop_lab::LoopCommand;
+use super::viewer::Dialog;
 
 impl Studio {
     /// Executes a command. Returns the part of the command that the driver has to execute, if any.
@@ -46,7 +44,7 @@ impl Studio {
         }
         self.viewer.measure_for(&command);
         let request = self.carry_out(command);
-        look_at_goal(&mut self.deck, &mut self.viewer, self.loops.is_some(), was_asked);
+        look_at_goal(self, was_asked);
         if !ran && self.deck.time_runs() {
             self.deck.run_on(self.viewer.display().interpolation);
         }
@@ -63,20 +61,17 @@ impl Studio {
         if self.loop_lab().is_some() && !matches!(command, Command::View(_) | Command::Ask(_)) {
             self.viewer.notice = None;
         }
-        let Self { deck, viewer, loops } = self;
-        match (command, loops) {
-            (Command::View(command), _) => return self.carry_out_on_view(command),
-            (Command::Ask(DriverRequest::Record | DriverRequest::CopyLink), Some(loops)) => {
-                refuse_in_loop_lab(viewer, loops);
+        match command {
+            Command::View(command) => return self.carry_out_on_view(command),
+            Command::Run(_) | Command::Ask(DriverRequest::Record | DriverRequest::CopyLink)
+                if self.loops.is_some() =>
+            {
+                refuse_in_loop_lab(self);
             }
-            (Command::Ask(request), _) => return if_copyable(deck, viewer, request),
-            (Command::Run(command), None) => carry_out_on_run(deck, viewer, command),
-            (Command::Run(_), Some(loops)) => refuse_in_loop_lab(viewer, loops),
-            (Command::Stage(command), None) => carry_out_on_stage(deck, viewer, command),
-            (Command::Stage(command), Some(_)) => carry_out_in_loop_lab(self, command),
-            (Command::Loop(LoopCommand::ToggleLab), None) => open_loop_lab(self),
-            (Command::Loop(_), None) => {}
-            (Command::Loop(command), Some(_)) => change_loop_lab(self, command),
+            Command::Ask(request) => return if_copyable(self, request),
+            Command::Run(command) => carry_out_on_run(self, command),
+            Command::Stage(command) => carry_out_on_stage(self, command),
+            Command::Loop(command) => change_loop_lab(self, command),
         }
         None
     }
@@ -87,7 +82,7 @@ impl Studio {
         match command {
             ViewCommand::TogglePause => self.deck.running = !self.deck.running,
             ViewCommand::PointerDown(is_down) => {
-                self.viewer.hz_at_press = is_down.then(|| self.deck.race().tick_hz());
+                self.viewer.hz_at_press = is_down.then(|| self.race().tick_hz());
                 self.deck.tick_rate_is_held &= is_down;
                 self.deck.pulled.take_if(|_| !is_down);
             }
@@ -118,25 +113,16 @@ impl Studio {
             }
             ViewCommand::UsualScale => self.viewer.show_scale(USUAL_SCALE_PERCENT),
             ViewCommand::Quantity(quantity) => display.quantity = quantity,
-            ViewCommand::Coordinate { body, coordinate } => {
-                plot_coordinate(&mut self.deck, &mut self.viewer, body, coordinate)
-            }
+            ViewCommand::Coordinate { body, coordinate } => plot_coordinate(self, body, coordinate),
             ViewCommand::PlotRanges(ranges) => self.viewer.view.plot_ranges = ranges,
             ViewCommand::ToggleEnlarged | ViewCommand::Enter => {
                 display.enlarged = !display.enlarged
             }
-            ViewCommand::Copy => {
-                let of_lane =
-                    |entry| [DriverRequest::CopyJoint(entry), DriverRequest::CopyMethod(entry)];
-                let pointed = self.viewer.pointed.map(of_lane);
-                let mut copies =
-                    pointed.into_iter().flatten().chain([DriverRequest::CopyInstrument]);
-                return copies.find_map(|copy| if_copyable(&self.deck, &self.viewer, copy));
-            }
+            ViewCommand::Copy => return copy(self),
             ViewCommand::Language(language) => self.viewer.preferences.language = language,
             ViewCommand::CopyMethod { entry, language } => {
                 self.viewer.preferences.language = language;
-                return if_copyable(&self.deck, &self.viewer, DriverRequest::CopyMethod(entry));
+                return if_copyable(self, DriverRequest::CopyMethod(entry));
             }
             ViewCommand::PointAt(entry) => self.viewer.pointed = entry,
             ViewCommand::AdviseOnOneBody(is_one) => display.advises_on_one_body = is_one,
@@ -149,7 +135,7 @@ impl Studio {
             ViewCommand::AskForRun => self.viewer.dialog = Some(Dialog::path(true)),
             ViewCommand::TypePath(path) => self.viewer.type_path(path),
             ViewCommand::AskForSpring => {
-                let tick_hz = described_spring(&self.deck, &self.viewer).1;
+                let tick_hz = described_spring(self).1;
                 self.viewer.dialog = Some(Dialog::Spring { tick_hz });
             }
             ViewCommand::DescribeSpring(spring) => self.viewer.preferences.my_spring = spring,
@@ -168,14 +154,12 @@ impl Studio {
                 self.viewer.dialog = (!is_open).then_some(Dialog::Figures);
             }
             ViewCommand::OpenFigure(index) => {
-                open_figure(&mut self.deck, &mut self.viewer, index);
+                open_figure(self, index);
             }
             ViewCommand::CloseDialog => self.viewer.dialog = None,
-            ViewCommand::ToggleGuide => toggle_guide(&mut self.deck, &mut self.viewer),
-            ViewCommand::GoToStop(index) => go_to_stop(&mut self.deck, &mut self.viewer, index),
-            ViewCommand::StopBeside(step) => {
-                go_to_stop_beside(&mut self.deck, &mut self.viewer, step)
-            }
+            ViewCommand::ToggleGuide => toggle_guide(self),
+            ViewCommand::GoToStop(index) => go_to_stop(self, index),
+            ViewCommand::StopBeside(step) => go_to_stop_beside(self, step),
             ViewCommand::Predict(choice) => {
                 if let Some(tour) = &mut self.viewer.tour {
                     tour.predict(choice);
@@ -206,11 +190,19 @@ fn moves_time(command: &Command) -> bool {
     }
 }
 
+/// Returns the request for the copy of the lane that is pointed at, or else of the instrument.
+fn copy(studio: &Studio) -> Option<DriverRequest> {
+    let of_lane = |entry| [DriverRequest::CopyJoint(entry), DriverRequest::CopyMethod(entry)];
+    let of_lane = studio.viewer.pointed.map(of_lane).into_iter().flatten();
+    let mut copies = of_lane.chain([DriverRequest::CopyInstrument]);
+    copies.find_map(|copy| if_copyable(studio, copy))
+}
+
 /// Returns the request, or `None` if it would leave the driver nothing to copy.
-fn if_copyable(deck: &Deck, viewer: &Viewer, request: DriverRequest) -> Option<DriverRequest> {
+fn if_copyable(studio: &Studio, request: DriverRequest) -> Option<DriverRequest> {
     match request {
-        DriverRequest::CopyMethod(entry) => deck.entries().get(entry).map(|_| request),
-        DriverRequest::CopyJoint(entry) => joint_code(deck, viewer, entry).map(|_| request),
+        DriverRequest::CopyMethod(entry) => studio.entries().get(entry).map(|_| request),
+        DriverRequest::CopyJoint(entry) => joint_code(studio, entry).map(|_| request),
         _ => Some(request),
     }
 }

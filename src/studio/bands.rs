@@ -2,9 +2,7 @@
 //! the opening does. Digits show a lane and take it away.
 
 use super::Studio;
-use super::deck::Deck;
 use super::display::Arrangement;
-use super::viewer::Viewer;
 use crate::run::MenuIndex;
 use crate::run::race::Mode;
 
@@ -15,7 +13,20 @@ impl Studio {
     /// Returns the menu indices of the lanes that have a band on the stage, from top to bottom. There are none unless
     /// the scene opens in bands, and the stage alone shows a race.
     pub fn bands(&self) -> Vec<MenuIndex> {
-        if self.loops.is_none() { bands(&self.deck, &self.viewer) } else { Vec::new() }
+        let (scene, display) = (self.scene(), self.display());
+        let are_shown = self.loops.is_none()
+            && scene.opens_in_bands
+            && scene.bodies.len() == 1
+            && self.mode() == Mode::Race
+            && display.arrangement == Arrangement::Overlay
+            && !display.measure
+            && !display.enlarged
+            && self.viewer.tour.is_none();
+        let has_lane = |entry: &MenuIndex| are_shown && self.deck.lane_of(*entry).is_some();
+        match &self.viewer.view.bands {
+            Some(chosen) => chosen.iter().copied().filter(has_lane).collect(),
+            None => (0..self.deck.entries().len()).filter(has_lane).take(AT_FIRST).collect(),
+        }
     }
 
     /// Whether a person has chosen the bands.
@@ -24,38 +35,22 @@ impl Studio {
     }
 }
 
-pub(super) fn bands(deck: &Deck, viewer: &Viewer) -> Vec<MenuIndex> {
-    let (scene, display) = (deck.scene(), viewer.display());
-    let are_shown = scene.opens_in_bands
-        && scene.bodies.len() == 1
-        && deck.mode() == Mode::Race
-        && display.arrangement == Arrangement::Overlay
-        && !display.measure
-        && !display.enlarged
-        && viewer.tour.is_none();
-    let has_lane = |entry: &MenuIndex| are_shown && deck.lane_of(*entry).is_some();
-    match &viewer.view.bands {
-        Some(chosen) => chosen.iter().copied().filter(has_lane).collect(),
-        None => (0..deck.entries().len()).filter(has_lane).take(AT_FIRST).collect(),
-    }
-}
-
 /// Shows the band of a lane in the order of the digits, or takes it away. The last band stays. Returns the entry to
 /// select, which has a band.
-pub(super) fn toggle_band(deck: &Deck, viewer: &mut Viewer, entry: MenuIndex) -> MenuIndex {
-    let mut shown = bands(deck, viewer);
+pub(super) fn toggle_band(studio: &mut Studio, entry: MenuIndex) -> MenuIndex {
+    let mut shown = studio.bands();
     match shown.iter().position(|&band| band == entry) {
         Some(index) if shown.len() > 1 => _ = shown.remove(index),
         Some(_) => {}
-        None if deck.lane_of(entry).is_none() => return deck.active(),
+        None if studio.deck.lane_of(entry).is_none() => return studio.active(),
         None => {
             shown.push(entry);
             shown.sort_unstable();
         }
     }
     let is_there = |entry: MenuIndex| shown.contains(&entry).then_some(entry);
-    let selected = is_there(entry).or_else(|| is_there(deck.active())).unwrap_or(shown[0]);
-    viewer.view.bands = Some(shown);
+    let selected = is_there(entry).or_else(|| is_there(studio.active())).unwrap_or(shown[0]);
+    studio.viewer.view.bands = Some(shown);
     selected
 }
 

@@ -1,10 +1,9 @@
 //! The chapter's figures, each as a run and as the part of its plot that the book shows.
 
-use super::deck::Deck;
+use super::Studio;
 use super::driving::make_tick;
 use super::instrument::Instrument;
 use super::opening::open_with;
-use super::viewer::Viewer;
 use crate::run::past::Quantity;
 use crate::run::race::Mode;
 use crate::scene::SCENES;
@@ -84,24 +83,24 @@ pub(super) fn figure_of_digit(digit: usize) -> Option<usize> {
 }
 
 /// Opens the scene of this figure at its end, in the book's view of it. Time stands still.
-pub(super) fn open_figure(deck: &mut Deck, viewer: &mut Viewer, index: usize) {
+pub(super) fn open_figure(studio: &mut Studio, index: usize) {
     let BookFigure { scene, methods, quantity, seconds, view, .. } = &BOOK_FIGURES[index];
     let listed = SCENES.iter().position(|built_in| built_in.name == *scene);
-    open_with(deck, viewer, listed.expect("a figure names a built-in scene"), |next| {
+    open_with(studio, listed.expect("a figure names a built-in scene"), |next| {
         next.race_only(methods);
         next.mode = if methods.len() > 1 { Mode::Race } else { Mode::Solo };
     });
-    let ticks = (seconds * deck.race().tick_hz().hz()).round() as u64;
-    (0..ticks).for_each(|_| make_tick(deck, viewer, &mut ()));
-    deck.run.show_present();
-    deck.running = false;
-    let display = &mut viewer.preferences.display;
+    let ticks = (seconds * studio.race().tick_hz().hz()).round() as u64;
+    (0..ticks).for_each(|_| make_tick(studio, &mut ()));
+    studio.deck.run.show_present();
+    studio.deck.running = false;
+    let display = &mut studio.viewer.preferences.display;
     (display.measure, display.enlarged) = (true, true);
     (display.instrument, display.quantity) = (Instrument::Motion, Some(*quantity));
-    let coordinate = deck.past().coordinate(deck.race(), 0).0;
+    let coordinate = studio.past().coordinate(studio.race(), 0).0;
     let up = format!("{} of 0, up", quantity.symbol(&coordinate));
     let axes = ["time t, along".to_owned(), up];
-    viewer.view.plot_ranges = axes.into_iter().zip(*view).collect();
+    studio.viewer.view.plot_ranges = axes.into_iter().zip(*view).collect();
 }
 
 #[cfg(test)]

@@ -3,10 +3,8 @@
 use std::sync::Arc;
 
 use super::Studio;
-use super::deck::Deck;
 use super::display::Motion;
 use super::instrument::Instrument;
-use super::viewer::Viewer;
 use crate::measure::cloud::{CloudRequest, CloudWorker, FoundCloud, NoCloud};
 use crate::run::race::Interventions;
 
@@ -16,7 +14,7 @@ use crate::run::race::Interventions;
 pub fn cloud_request(studio: &Studio) -> Option<CloudRequest> {
     let Studio { deck, viewer, loops } = studio;
     let is_shown = viewer.display().instrument == Instrument::Cloud && loops.is_none();
-    if !is_shown || cloud_refusal(deck, viewer).is_some() {
+    if !is_shown || cloud_refusal(studio).is_some() {
         return None;
     }
     let changes = Interventions::after_last_edit(deck.run().checkpoints());
@@ -39,10 +37,10 @@ pub fn cloud_request(studio: &Studio) -> Option<CloudRequest> {
 }
 
 /// Returns the reason why the displayed body has no cloud, if it has several coordinates.
-pub fn cloud_refusal(deck: &Deck, viewer: &Viewer) -> Option<NoCloud> {
-    let body = &deck.race().truth().bodies()[viewer.view.body];
+pub fn cloud_refusal(studio: &Studio) -> Option<NoCloud> {
+    let body = &studio.race().truth().bodies()[studio.viewer.view.body];
     let coordinates = body.coordinates().len();
-    let name = || deck.scene().bodies[viewer.view.body].name.clone();
+    let name = || studio.scene().bodies[studio.viewer.view.body].name.clone();
     (coordinates > 1).then(|| NoCloud::SeveralCoordinates { body: name(), coordinates })
 }
 
@@ -152,7 +150,7 @@ mod tests {
     fn clouds_stay_until_those_with_more_points_have_caught_up() {
         let mut studio = Studio::new(Scene::built_in("liouville").unwrap());
         studio.viewer.preferences.display.motion = Motion::Live;
-        show_clouds_of_scene(&mut studio.deck, &mut studio.viewer);
+        show_clouds_of_scene(&mut studio);
         let choice = studio.display().cloud;
         let few = CloudChoice { points: 2000, ..choice };
         studio.apply(RunCommand::Cloud(few));
@@ -194,7 +192,7 @@ mod tests {
     #[test]
     fn clouds_of_a_run_stay_until_those_after_a_change_are_there() {
         let mut studio = Studio::new(Scene::built_in("liouville").unwrap());
-        show_clouds_of_scene(&mut studio.deck, &mut studio.viewer);
+        show_clouds_of_scene(&mut studio);
         let mut worker = CloudWorker::default();
         let moment = |studio: &Studio| {
             let FoundCloud { request, picture } = shown_cloud(studio).expect("clouds");
@@ -218,7 +216,7 @@ mod tests {
         const FRAME_NS: i64 = 16_666_667;
         let mut studio = Studio::new(Scene::built_in("liouville").unwrap());
         studio.viewer.preferences.display.motion = Motion::Live;
-        show_clouds_of_scene(&mut studio.deck, &mut studio.viewer);
+        show_clouds_of_scene(&mut studio);
         // Half a second passes until the first picture.
         (0..30).for_each(|_| _ = studio.advance(FRAME_NS));
         complete_clouds(&mut studio, &mut CloudWorker::default(), || false);
@@ -230,7 +228,7 @@ mod tests {
         assert!((60..80).contains(&frames), "{frames} frames, and up to a tick of 1/12 s");
         let mut blind = Studio::new(Scene::built_in("liouville").unwrap());
         blind.viewer.preferences.display.motion = Motion::Live;
-        show_clouds_of_scene(&mut blind.deck, &mut blind.viewer);
+        show_clouds_of_scene(&mut blind);
         (0..60 * 4).for_each(|_| _ = blind.advance(FRAME_NS));
         assert!(blind.race().tick() > 0, "without a worker it waits no longer than three seconds");
     }

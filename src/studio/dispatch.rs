@@ -1,22 +1,20 @@
-//! Passes commands on the run to the functions that execute them, and so commands on the stage while it shows the run.
-//!
-//! A command has the same effect whether it comes from a key, a panel, a script or a test. Its rules therefore stand in
-//! the function that executes it, and never in the panel with its button. The loop lab refuses commands on the run, and
-//! has its own meaning for commands on the stage.
+//! Passes commands on the run, and on the stage with a run or the loop lab, to the functions that execute them.
 
+use super::Studio;
 use super::acting::{
     act, menu_index, next_impact, pick, pick_beside, seek, set_lane, step_by, tell_of_the_future,
     toggle_equal_cost,
 };
-use super::bands::{bands, toggle_band};
+use super::bands::toggle_band;
 use super::command::{RunCommand, SPEED_LADDER, StageCommand, TICK_LADDER};
-use super::deck::Deck;
 use super::findings::select_best;
-use super::guiding::hint;
+use super::looping::{
+    end_opening, leave_loop_lab, method_beside, set_loop_method, show_in_loop_lab,
+};
 use super::opening::{open, open_beside, open_spring};
 use super::restarting::{redo, restart, restart_keeping_run, undo};
 use super::resting::watch_again;
-use super::viewer::Viewer;
+use crate::loops::loop_lab::SLOWNESS;
 use crate::run::METRICS;
 use crate::run::race::Mode;
 use crate::scene::Action;
@@ -24,123 +22,175 @@ use crate::scene::Action;
 /// Time for which futures are shown after a key has set the tick rate, in nanoseconds.
 const FUTURES_NS: i64 = 1_000_000_000;
 
-pub(super) fn carry_out_on_run(deck: &mut Deck, viewer: &mut Viewer, command: RunCommand) {
-    let race = deck.race();
+pub(super) fn carry_out_on_run(studio: &mut Studio, command: RunCommand) {
+    let race = studio.race();
     match command {
-        RunCommand::Act(action) => act(deck, viewer, action),
-        RunCommand::SetLane(spec) => set_lane(deck, viewer, spec),
-        RunCommand::SpeedPercent(percent) => deck.clock.set_speed_percent(percent),
-        RunCommand::ThrottleUp => act(deck, viewer, Action::Throttle(tenths(race.throttle(), 1.0))),
-        RunCommand::ThrottleDown => {
-            act(deck, viewer, Action::Throttle(tenths(race.throttle(), -1.0)))
-        }
-        RunCommand::RudderLeft => act(deck, viewer, Action::Rudder(tenths(race.rudder(), 1.0))),
-        RunCommand::RudderRight => act(deck, viewer, Action::Rudder(tenths(race.rudder(), -1.0))),
+        RunCommand::Act(action) => act(studio, action),
+        RunCommand::SetLane(spec) => set_lane(studio, spec),
+        RunCommand::SpeedPercent(percent) => studio.deck.clock.set_speed_percent(percent),
+        RunCommand::ThrottleUp => act(studio, Action::Throttle(tenths(race.throttle(), 1.0))),
+        RunCommand::ThrottleDown => act(studio, Action::Throttle(tenths(race.throttle(), -1.0))),
+        RunCommand::RudderLeft => act(studio, Action::Rudder(tenths(race.rudder(), 1.0))),
+        RunCommand::RudderRight => act(studio, Action::Rudder(tenths(race.rudder(), -1.0))),
         RunCommand::Seek(tick) => {
-            deck.running = false;
-            seek(deck, viewer, tick);
-            tell_of_the_future(deck, viewer, tick);
+            studio.deck.running = false;
+            seek(studio, tick);
+            tell_of_the_future(studio, tick);
         }
-        RunCommand::WatchAgain => watch_again(deck, viewer),
-        RunCommand::Undo => undo(deck, viewer),
-        RunCommand::Redo => redo(deck, viewer),
-        RunCommand::NextInterpolation => viewer.next_interpolation(),
-        RunCommand::NextImpact => next_impact(deck, viewer),
+        RunCommand::WatchAgain => watch_again(studio),
+        RunCommand::Undo => undo(studio),
+        RunCommand::Redo => redo(studio),
+        RunCommand::NextInterpolation => studio.viewer.next_interpolation(),
+        RunCommand::NextImpact => next_impact(studio),
         RunCommand::MapParameter(parameter) => {
-            let view = &mut viewer.view;
+            let view = &mut studio.viewer.view;
             view.mapped_parameter = Some((view.body, parameter));
         }
-        RunCommand::Cloud(choice) => viewer.preferences.display.cloud = choice,
+        RunCommand::Cloud(choice) => studio.viewer.preferences.display.cloud = choice,
         RunCommand::ToggleInspector => {
-            let display = &mut viewer.preferences.display;
+            let display = &mut studio.viewer.preferences.display;
             display.inspector = !display.inspector;
         }
         RunCommand::Seconds(seconds) => {
-            deck.set_start("the length", |start| start.set_seconds(seconds));
+            studio.deck.set_start("the length", |start| start.set_seconds(seconds));
         }
-        RunCommand::Hold(held) => deck.held = Some(held),
-        RunCommand::Pull(pulled) => deck.pulled = Some(pulled),
-        RunCommand::ToggleEqualCost => toggle_equal_cost(deck, viewer),
+        RunCommand::Hold(held) => studio.deck.held = Some(held),
+        RunCommand::Pull(pulled) => studio.deck.pulled = Some(pulled),
+        RunCommand::ToggleEqualCost => toggle_equal_cost(studio),
     }
 }
 
-pub(super) fn carry_out_on_stage(deck: &mut Deck, viewer: &mut Viewer, command: StageCommand) {
-    let race = deck.race();
-    match command {
-        StageCommand::Method(method) => {
-            if let Some(entry) = menu_index(deck, viewer, method) {
-                pick(deck, viewer, entry);
+/// Executes a command on the run, or on the loop lab while the stage shows it.
+pub(super) fn carry_out_on_stage(studio: &mut Studio, command: StageCommand) {
+    let has_lab = studio.loops.is_some();
+    let display = &mut studio.viewer.preferences.display;
+    let loops = studio.loops.as_mut().map(|open| &mut *open.lab);
+    match (command, loops) {
+        (StageCommand::Method(method), Some(_)) => set_loop_method(studio, method),
+        (StageCommand::Method(method), None) => {
+            if let Some(entry) = menu_index(studio, method) {
+                pick(studio, entry);
             }
         }
-        StageCommand::Pick(entry) if bands(deck, viewer).is_empty() => pick(deck, viewer, entry),
-        StageCommand::Pick(entry) => {
-            let selected = toggle_band(deck, viewer, entry);
-            pick(deck, viewer, selected);
+        (StageCommand::MethodBeside(step), Some(loops)) => {
+            let beside = method_beside(loops, step);
+            set_loop_method(studio, beside);
         }
-        StageCommand::MethodBeside(step) => pick_beside(deck, viewer, step),
-        StageCommand::TickHz(tick_hz) => act(deck, viewer, Action::TickHz(tick_hz)),
-        StageCommand::TickRate(step) => {
-            if let Some(hz) = step.next_rung(&TICK_LADDER, race.tick_hz()) {
-                act(deck, viewer, Action::TickHz(hz.into()));
-                (viewer.futures_left_ns, viewer.futures_are_new) = (FUTURES_NS, true);
+        (StageCommand::MethodBeside(step), None) => pick_beside(studio, step),
+        (StageCommand::Pick(index), Some(loops)) => loops.select(index),
+        (StageCommand::Pick(entry), None) => {
+            let has_bands = !studio.bands().is_empty();
+            let selected = if has_bands { toggle_band(studio, entry) } else { entry };
+            pick(studio, selected);
+        }
+        (StageCommand::TickHz(tick_hz), Some(loops)) => loops.set_tick_hz(tick_hz),
+        (StageCommand::TickHz(tick_hz), None) => act(studio, Action::TickHz(tick_hz)),
+        (StageCommand::TickRate(step), loops) => {
+            let of_run = studio.deck.race().tick_hz();
+            let tick_hz = loops.map_or(of_run, |loops| loops.scene().tick_hz);
+            if let Some(hz) = step.next_rung(&TICK_LADDER, tick_hz) {
+                carry_out_on_stage(studio, StageCommand::TickHz(hz.into()));
+                if !has_lab {
+                    let viewer = &mut studio.viewer;
+                    (viewer.futures_left_ns, viewer.futures_are_new) = (FUTURES_NS, true);
+                }
             }
         }
-        StageCommand::Speed(step) => {
-            if let Some(percent) = step.next_rung(&SPEED_LADDER, deck.clock.speed_percent()) {
-                deck.clock.set_speed_percent(percent);
+        (StageCommand::Speed(step), Some(loops)) => {
+            if let Some(slowness) = step.opposite().next_rung(&SLOWNESS, loops.slowness()) {
+                loops.set_slowness(slowness);
             }
         }
-        StageCommand::ToggleRace => toggle_race(deck, viewer),
-        StageCommand::Tick(step) => step_by(deck, viewer, step.sign()),
-        StageCommand::Second(step) => {
-            step_by(deck, viewer, step.sign() * race.tick_hz().hz().round().max(1.0) as i64)
-        }
-        StageCommand::Restart => {
-            viewer.view.zoom_pans.clear();
-            viewer.view.bands = None;
-            // A hint suggests the next step, and the old run is a click away on the timeline.
-            if restart_keeping_run(deck, viewer) && hint(deck, viewer, false).is_none() {
-                viewer.set_notice("restarted: Ctrl Z brings the run back");
+        (StageCommand::Speed(step), None) => {
+            let clock = &mut studio.deck.clock;
+            if let Some(percent) = step.next_rung(&SPEED_LADDER, clock.speed_percent()) {
+                clock.set_speed_percent(percent);
             }
         }
-        StageCommand::Scene(index) => open(deck, viewer, index),
-        StageCommand::SceneBeside(step) => open_beside(deck, viewer, step),
-        StageCommand::ToggleArrangement => viewer.toggle_arrangement(),
-        StageCommand::Instrument(instrument) => viewer.preferences.display.instrument = instrument,
-        StageCommand::InstrumentBeside(step) => {
-            let instrument = &mut viewer.preferences.display.instrument;
-            *instrument = instrument.neighbour(step);
-            while !instrument.is_of(deck.scene()) {
-                *instrument = instrument.neighbour(step);
+        (command @ (StageCommand::ToggleRace | StageCommand::OpenSpring), _) => {
+            if leave_loop_lab(studio) {
+                studio.viewer.measure_for(&command.clone().into());
+            }
+            match command {
+                StageCommand::ToggleRace => toggle_race(studio),
+                _ => open_spring(studio),
             }
         }
-        StageCommand::Metric(index) => {
-            viewer.preferences.display.metric = index.min(METRICS.len() - 1)
+        (StageCommand::Tick(step), _) => step_by(studio, step.sign()),
+        (StageCommand::Second(step), loops) => {
+            let of_run = studio.deck.race().tick_hz().hz().round().max(1.0);
+            let rate = loops.map_or(of_run, |loops| loops.chosen_trace().refresh().hz().round());
+            step_by(studio, step.sign() * rate as i64);
         }
-        StageCommand::Body(body) => {
-            viewer.view.body = body.min(deck.scene().bodies.len() - 1);
+        (StageCommand::Restart, Some(loops)) => loops.seek(0),
+        (StageCommand::Restart, None) => restart_by_hand(studio),
+        (StageCommand::Scene(index), _) => open_on_stage(studio, |studio| open(studio, index)),
+        (StageCommand::SceneBeside(step), _) => {
+            open_on_stage(studio, |studio| open_beside(studio, step))
         }
-        StageCommand::OpenSpring => open_spring(deck, viewer),
+        (StageCommand::Body(body), _) => open_on_stage(studio, |studio| {
+            studio.viewer.view.body = body.min(studio.scene().bodies.len() - 1);
+        }),
+        (StageCommand::ToggleArrangement, Some(loops)) => loops.is_overlaid = !loops.is_overlaid,
+        (StageCommand::ToggleArrangement, None) => studio.viewer.toggle_arrangement(),
+        (StageCommand::Instrument(instrument), Some(_)) if !instrument.is_in_loop_lab() => {
+            let name = instrument.name();
+            studio.viewer.set_notice(format!("{name} is not in the loop lab: L leaves it"));
+        }
+        (StageCommand::Instrument(instrument), _) => return display.instrument = instrument,
+        (StageCommand::InstrumentBeside(step), Some(loops)) => {
+            loops.choose_trace(step.cyclic_index(loops.trace(), loops.traces().len()));
+        }
+        (StageCommand::InstrumentBeside(step), None) => loop {
+            display.instrument = display.instrument.neighbour(step);
+            if display.instrument.is_of(studio.deck.scene()) {
+                break;
+            }
+        },
+        (StageCommand::Metric(index), Some(loops)) => loops.set_metric(index),
+        (StageCommand::Metric(index), None) => display.metric = index.min(METRICS.len() - 1),
+    }
+    end_opening(studio);
+}
+
+/// Calls `open`, which shows another body, and shows that body in the loop lab too if the lab is open. Playback of an
+/// open lab goes on as before.
+fn open_on_stage(studio: &mut Studio, open: impl FnOnce(&mut Studio)) {
+    let running = studio.deck.running;
+    open(studio);
+    if studio.loops.is_some() {
+        studio.deck.running = running;
+        show_in_loop_lab(studio);
+    }
+}
+
+/// Restarts the run, with the whole stage in view.
+fn restart_by_hand(studio: &mut Studio) {
+    studio.viewer.view.zoom_pans.clear();
+    studio.viewer.view.bands = None;
+    // A hint suggests the next step, and the old run is a click away on the timeline.
+    if restart_keeping_run(studio) && studio.hint().is_none() {
+        studio.viewer.set_notice("restarted: Ctrl Z brings the run back");
     }
 }
 
 /// Switches between solo and race. Later scenes open in the chosen mode, unless the guide is open.
-fn toggle_race(deck: &mut Deck, viewer: &mut Viewer) {
-    match deck.mode() {
+fn toggle_race(studio: &mut Studio) {
+    match studio.mode() {
         Mode::Solo => {
-            restart(deck, viewer, Some("the race"), |next| next.mode = Mode::Race);
-            select_best(deck, viewer);
+            restart(studio, Some("the race"), |next| next.mode = Mode::Race);
+            select_best(studio);
         }
         Mode::Race => {
-            let lane = deck.selected().id;
-            act(deck, viewer, Action::Solo { lane });
-            deck.run.next_mut().mode = Mode::Solo;
+            let lane = studio.selected().id;
+            act(studio, Action::Solo { lane });
+            studio.deck.run.next_mut().mode = Mode::Solo;
             // The notice may be about a lane that has left the race.
-            viewer.notice = None;
+            studio.viewer.notice = None;
         }
     }
-    if viewer.tour.is_none() {
-        viewer.preferences.choose_mode(deck.mode(), deck.scene());
+    if studio.viewer.tour.is_none() {
+        studio.viewer.preferences.choose_mode(studio.deck.mode(), studio.deck.scene());
     }
 }
 

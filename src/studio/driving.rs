@@ -6,10 +6,9 @@
 //! so that a chosen speed stays. It scales the time that the clock receives, and changes no bit of the run.
 
 use super::Motion;
-use super::deck::Deck;
+use super::Studio;
 use super::pace::LiveFrame;
 use super::pulling::pull;
-use super::viewer::Viewer;
 use crate::look::landmarks::decades_to_next;
 use crate::look::{Framing, Look};
 use crate::loops::Due;
@@ -36,30 +35,29 @@ const SWING_S: f64 = 1.0;
 /// Adds a frame of `frame_ns` nanoseconds of real time to a run, as described at
 /// [`Studio::advance_in_time`](super::Studio::advance_in_time).
 pub(super) fn advance(
-    deck: &mut Deck,
-    viewer: &mut Viewer,
+    studio: &mut Studio,
     last: u64,
     frame_ns: i64,
     is_time_left: &mut dyn FnMut() -> bool,
     observer: &mut dyn Observer,
 ) -> Due {
     // A tick rate that the script sets at this tick already applies to the time after it.
-    let ((), parts) =
-        deck.with_notices(|run, notices| run.catch_up(&mut (notices, &mut *observer)));
-    viewer.set_notice_parts(parts);
-    let thousandths = slow_motion(deck, viewer);
-    let mut due = deck.clock.advance(frame_ns.saturating_mul(i64::from(thousandths)) / 1000);
+    let ((), told) =
+        studio.deck.with_notices(|run, notices| run.catch_up(&mut (notices, &mut *observer)));
+    studio.viewer.set_notice_parts(told);
+    let thousandths = slow_motion(studio);
+    let mut due = studio.deck.clock.advance(frame_ns.saturating_mul(i64::from(thousandths)) / 1000);
     for made in 1..=due.ticks {
-        if deck.race().tick() >= last {
+        if studio.race().tick() >= last {
             break;
         }
-        pull(deck);
-        make_tick(deck, viewer, observer);
-        if last == u64::MAX && deck.comes_to_rest(viewer.motion()) {
+        pull(&mut studio.deck);
+        make_tick(studio, observer);
+        if last == u64::MAX && studio.deck.comes_to_rest(studio.viewer.motion()) {
             due.ticks = made;
-            deck.running = false;
+            studio.deck.running = false;
             // A hint replaces the notice and suggests the next step.
-            viewer.notice = None;
+            studio.viewer.notice = None;
             break;
         }
         if !is_time_left() {
@@ -69,73 +67,73 @@ pub(super) fn advance(
         }
     }
     if due.ticks > 0 {
-        deck.run.show_present();
+        studio.deck.run.show_present();
     }
-    let shown_s = shown_s(deck, viewer);
-    deck.follow_with_compared(shown_s);
-    deck.dropped += due.dropped;
-    note_frame(deck, viewer, frame_ns, due);
+    let shown_s = shown_s(studio);
+    studio.deck.follow_with_compared(shown_s);
+    studio.deck.dropped += due.dropped;
+    note_frame(studio, frame_ns, due);
     due
 }
 
 /// Performs the actions at this tick, and steps to the next tick.
-pub(super) fn make_tick(deck: &mut Deck, viewer: &mut Viewer, observer: &mut dyn Observer) {
-    viewer.notice.take_if(|notice| notice.is_of_tick());
-    let ((), parts) = deck.with_notices(|run, notices| run.tick(&mut (notices, observer)));
-    viewer.set_notice_parts(parts);
+pub(super) fn make_tick(studio: &mut Studio, observer: &mut dyn Observer) {
+    studio.viewer.notice.take_if(|notice| notice.is_of_tick());
+    let ((), told) = studio.deck.with_notices(|run, notices| run.tick(&mut (notices, observer)));
+    studio.viewer.set_notice_parts(told);
 }
 
-fn note_frame(deck: &mut Deck, viewer: &mut Viewer, duration_ns: i64, due: Due) {
-    let shown_s = shown_s(deck, viewer);
-    let slowed = f64::from(slow_motion(deck, viewer)) / 1e3;
-    let speed = slowed * f64::from(deck.clock.speed_percent()) / 100.0;
+fn note_frame(studio: &mut Studio, duration_ns: i64, due: Due) {
+    let shown_s = shown_s(studio);
+    let slowed = f64::from(slow_motion(studio)) / 1e3;
+    let speed = slowed * f64::from(studio.deck.clock.speed_percent()) / 100.0;
     let Due { ticks, dropped } = due;
     let frame = LiveFrame { duration_ns, ticks, dropped, animation_error_ms: 0.0 };
-    viewer.live.add(frame, shown_s, speed);
+    studio.viewer.live.add(frame, shown_s, speed);
 }
 
 /// Returns the interpolation at present. It is raw while time stands still, so that bodies appear at their tick.
-fn drawn_interpolation(deck: &Deck, viewer: &Viewer) -> Interpolation {
-    if deck.time_runs() { viewer.display().interpolation } else { Interpolation::Raw }
+fn drawn_interpolation(studio: &Studio) -> Interpolation {
+    if studio.deck.time_runs() { studio.display().interpolation } else { Interpolation::Raw }
 }
 
 /// Returns the displayed moment, in ticks after the last tick. It is negative before that tick.
-fn shown_ticks(deck: &Deck, viewer: &Viewer) -> f64 {
-    drawn_interpolation(deck, viewer).shown(deck.clock.alpha())
+fn shown_ticks(studio: &Studio) -> f64 {
+    drawn_interpolation(studio).shown(studio.deck.clock.alpha())
 }
 
 /// Returns the displayed moment (s). Everything on the stage belongs to this moment, including the numbers.
-pub fn shown_s(deck: &Deck, viewer: &Viewer) -> f64 {
-    deck.race().t() + deck.race().last_step_s() * shown_ticks(deck, viewer)
+pub fn shown_s(studio: &Studio) -> f64 {
+    studio.race().t() + studio.race().last_step_s() * shown_ticks(studio)
 }
 
 /// Returns the last tick at or before the displayed moment.
-pub fn shown_tick(deck: &Deck, viewer: &Viewer) -> u64 {
-    let is_before = shown_ticks(deck, viewer) < 0.0;
-    deck.race().tick().saturating_sub(u64::from(is_before))
+pub fn shown_tick(studio: &Studio) -> u64 {
+    let is_before = shown_ticks(studio) < 0.0;
+    studio.race().tick().saturating_sub(u64::from(is_before))
 }
 
 /// Returns the coordinates and velocities of a lane's body at the displayed moment.
-pub fn shown_state(deck: &Deck, viewer: &Viewer, body: &LaneBody) -> (Vec<f64>, Vec<f64>) {
+pub fn shown_state(studio: &Studio, body: &LaneBody) -> (Vec<f64>, Vec<f64>) {
     let (drawn, alpha, h) =
-        (drawn_interpolation(deck, viewer), deck.clock.alpha(), deck.race().last_step_s());
+        (drawn_interpolation(studio), studio.deck.clock.alpha(), studio.race().last_step_s());
     (drawn.coordinates(body, alpha, h), drawn.velocities(body, alpha))
 }
 
 /// Returns the true coordinates and velocities, at the displayed moment, of the body with this index in the scene.
-pub fn shown_truth(deck: &Deck, viewer: &Viewer, body: usize) -> (Vec<f64>, Vec<f64>) {
-    deck.past().truth_between(deck.race(), body, 1.0 + shown_ticks(deck, viewer))
+pub fn shown_truth(studio: &Studio, body: usize) -> (Vec<f64>, Vec<f64>) {
+    studio.past().truth_between(studio.race(), body, 1.0 + shown_ticks(studio))
 }
 
 /// Returns the speed at which a person can follow a lane that outgrows the stage, in thousandths of real time. At this
 /// speed no landmark passes in less than [`LANDMARK_S`]. A speed that the person has set stays as it is.
-pub(super) fn slow_motion(deck: &Deck, viewer: &Viewer) -> u32 {
-    let is_watched = viewer.display().motion == Motion::Live && deck.time_runs();
-    if !is_watched || deck.mode() != Mode::Solo || deck.clock().speed_percent() != 100 {
+pub(super) fn slow_motion(studio: &Studio) -> u32 {
+    let is_watched = studio.display().motion == Motion::Live && studio.deck.time_runs();
+    if !is_watched || studio.mode() != Mode::Solo || studio.clock().speed_percent() != 100 {
         return 1000;
     }
-    let selected = deck.selected();
-    let zooms = deck.past().histories(selected.id).iter().zip(selected.lane.bodies());
+    let selected = studio.selected();
+    let zooms = studio.past().histories(selected.id).iter().zip(selected.lane.bodies());
     let zooms = zooms.map(|(history, body)| {
         let (base_m, has_landmarks) = match Look::of(body).framing() {
             Framing::Recorder { half_width_m } => (half_width_m, true),
@@ -160,21 +158,21 @@ pub(super) fn slow_motion(deck: &Deck, viewer: &Viewer) -> u32 {
 }
 
 /// Describes the slow motion, or returns `None` if there is none.
-pub fn slowed_in_words(deck: &Deck, viewer: &Viewer) -> Option<String> {
-    let thousandths = slow_motion(deck, viewer);
+pub fn slowed_in_words(studio: &Studio) -> Option<String> {
+    let thousandths = slow_motion(studio);
     let times = significant(f64::from(thousandths) / 1e3, 1);
     (thousandths < 1000).then(|| format!("slowed ×{times}"))
 }
 
 /// Describes the speed at which time runs, or returns `None` if it is that of real time.
-pub fn pace_in_words(deck: &Deck, viewer: &Viewer) -> Option<String> {
-    let percent = deck.clock().speed_percent();
+pub fn pace_in_words(studio: &Studio) -> Option<String> {
+    let percent = studio.clock().speed_percent();
     let set = (percent != 100).then(|| match percent {
         25 => "at ¼× speed".into(),
         50 => "at ½× speed".into(),
         _ => format!("at {}× speed", round(f64::from(percent) / 100.0, 3)),
     });
-    set.or_else(|| slowed_in_words(deck, viewer))
+    set.or_else(|| slowed_in_words(studio))
 }
 
 /// Returns the rate at which a body exceeds both this distance and its own past reach, in powers of ten per simulated

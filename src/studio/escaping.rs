@@ -63,9 +63,9 @@ pub(super) static LAYERS: [Layer; 11] = [
     Layer {
         name: "race",
         take: |studio| {
-            let is_race = studio.deck.mode() == Mode::Race;
+            let is_race = studio.mode() == Mode::Race;
             if is_race {
-                carry_out_on_stage(&mut studio.deck, &mut studio.viewer, StageCommand::ToggleRace);
+                carry_out_on_stage(studio, StageCommand::ToggleRace);
             }
             is_race
         },
@@ -97,8 +97,8 @@ fn let_go(studio: &mut Studio) -> bool {
     if !take(&mut studio.deck.tick_rate_is_held) {
         return studio.deck.let_go();
     }
-    if studio.viewer.hz_at_press.is_some_and(|hz| hz != studio.deck.race().tick_hz()) {
-        carry_out_on_run(&mut studio.deck, &mut studio.viewer, RunCommand::Undo);
+    if studio.viewer.hz_at_press.is_some_and(|hz| hz != studio.race().tick_hz()) {
+        carry_out_on_run(studio, RunCommand::Undo);
     }
     true
 }

@@ -6,74 +6,75 @@
 
 use std::sync::Arc;
 
-use super::deck::Deck;
+use super::Studio;
 use super::instrument::Instrument;
-use super::viewer::Viewer;
 use crate::measure::{AdvisedBodies, AnalysisRequest, AnalysisWorker, Findings, MapRequest};
 use crate::run::race::{Entrant, Interventions, Mode};
 use crate::scene::SceneBody;
 use crate::sim::bodies::{Parameter, Range, TakesEffect};
 
-/// Returns the request to an [`AnalysisWorker`] for the verdicts and the advice that the studio needs now. Each
-/// [offered](Deck::offered) method is judged at the present tick rate. In a race the rest of the menu is judged too.
-/// The advice is included while it is shown.
-///
-/// A verdict is of what follows the last change of the run, from the state that a lane had then. A method that a race
-/// lacks is judged from the true state. Advice is on the scene from its start, or from where a person last placed or
-/// kicked a body. It includes a person's settings, and the parameters that the script has set by the present tick.
-pub fn analysis_request(deck: &Deck, viewer: &Viewer) -> AnalysisRequest {
-    let flown = deck.race().entrants().iter().map(|lane| deck.entry(lane) + 1);
-    let first = flown.max().unwrap_or_default().max(deck.offered());
-    let count = match deck.mode() {
-        Mode::Solo => first,
-        Mode::Race => deck.entries().len(),
-    };
-    let checkpoints = deck.run().checkpoints();
-    let by_hand = Interventions::in_race(deck.race(), checkpoints);
-    // Alone on the stage, a lane goes on from its state under whichever method is picked.
-    let lane = |entry| match deck.mode() {
-        Mode::Solo => deck.race().entrants().first(),
-        Mode::Race => deck.lane_of(entry),
-    };
-    let lane = |entry| lane(entry).map(|lane| lane.id).filter(|&id| by_hand.differ_in(id));
-    AnalysisRequest {
-        scene: Arc::clone(&deck.run.next().scene),
-        advised: Interventions::for_advice(deck.race(), checkpoints),
-        entries: (0..count).map(|entry| (deck.spec(entry), lane(entry))).collect(),
-        by_hand,
-        first,
-        tick_hz: deck.clock.tick_hz(),
-        advice: (viewer.display().instrument == Instrument::Advice)
-            .then(|| advised_bodies(deck, viewer)),
-        map: (viewer.display().instrument == Instrument::StabilityMap)
-            .then(|| map_request(deck, viewer))
-            .flatten(),
+impl Studio {
+    /// Returns the request to an [`AnalysisWorker`] for the verdicts and the advice that the studio needs now. Each
+    /// [offered](crate::Deck::offered) method is judged at the present tick rate. In a race the rest of the menu is
+    /// judged too. The advice is included while it is shown.
+    ///
+    /// A verdict is on the motion after the last change of the run, from the state that a lane had then. A method that a
+    /// race lacks is judged from the true state. Advice is on the scene from its start, or from where a person last
+    /// placed or kicked a body. It includes a person's settings, and the parameters that the script has set by the
+    /// present tick.
+    pub fn analysis_request(&self) -> AnalysisRequest {
+        let flown = self.race().entrants().iter().map(|lane| self.entry(lane) + 1);
+        let first = flown.max().unwrap_or_default().max(self.deck.offered());
+        let count = match self.mode() {
+            Mode::Solo => first,
+            Mode::Race => self.entries().len(),
+        };
+        let checkpoints = self.run().checkpoints();
+        let by_hand = Interventions::in_race(self.race(), checkpoints);
+        // Alone on the stage, a lane goes on from its state under whichever method is picked.
+        let lane = |entry| match self.mode() {
+            Mode::Solo => self.race().entrants().first(),
+            Mode::Race => self.deck.lane_of(entry),
+        };
+        let lane = |entry| lane(entry).map(|lane| lane.id).filter(|&id| by_hand.differ_in(id));
+        AnalysisRequest {
+            scene: Arc::clone(&self.deck.run.next().scene),
+            advised: Interventions::for_advice(self.race(), checkpoints),
+            entries: (0..count).map(|entry| (self.deck.spec(entry), lane(entry))).collect(),
+            by_hand,
+            first,
+            tick_hz: self.deck.clock.tick_hz(),
+            advice: (self.display().instrument == Instrument::Advice).then(|| advised_bodies(self)),
+            map: (self.display().instrument == Instrument::StabilityMap)
+                .then(|| map_request(self))
+                .flatten(),
+        }
     }
 }
 
 /// Returns the bodies that advice is about.
-fn advised_bodies(deck: &Deck, viewer: &Viewer) -> AdvisedBodies {
-    match viewer.display().advises_on_one_body && deck.scene().bodies.len() > 1 {
-        true => AdvisedBodies::One(viewer.view.body),
+fn advised_bodies(studio: &Studio) -> AdvisedBodies {
+    match studio.display().advises_on_one_body && studio.scene().bodies.len() > 1 {
+        true => AdvisedBodies::One(studio.viewer.view.body),
         false => AdvisedBodies::All,
     }
 }
 
 /// Returns the request for a map of the scene's lanes, and of the selected method, at the present values.
-fn map_request(deck: &Deck, viewer: &Viewer) -> Option<MapRequest> {
-    let (body, parameter) = (viewer.view.body, mapped_parameter(deck, viewer)?);
-    let lanes = 0..deck.scene().lanes.len();
-    let other = Some(deck.active()).filter(|active| !lanes.contains(active));
-    let specs = lanes.chain(other).map(|entry| (entry, deck.entries()[entry])).collect();
-    let opened = &deck.scene_as_opened().bodies[body];
-    let values = deck.race().values(body);
-    Some(MapRequest::new((body, parameter), opened, values, deck.clock.tick_hz(), specs))
+fn map_request(studio: &Studio) -> Option<MapRequest> {
+    let (body, parameter) = (studio.viewer.view.body, mapped_parameter(studio)?);
+    let lanes = 0..studio.scene().lanes.len();
+    let other = Some(studio.active()).filter(|active| !lanes.contains(active));
+    let specs = lanes.chain(other).map(|entry| (entry, studio.entries()[entry])).collect();
+    let opened = &studio.deck.scene_as_opened().bodies[body];
+    let values = studio.race().values(body);
+    Some(MapRequest::new((body, parameter), opened, values, studio.deck.clock.tick_hz(), specs))
 }
 
 /// Returns the indices of the displayed body's parameters that a stability map can show. These parameters act at once.
 /// They cannot be negative, so that their scale can be logarithmic.
-pub fn mappable_parameters(deck: &Deck, viewer: &Viewer) -> impl Iterator<Item = usize> {
-    let SceneBody { kind, values, .. } = &deck.scene().bodies[viewer.view.body];
+pub fn mappable_parameters(studio: &Studio) -> impl Iterator<Item = usize> {
+    let SceneBody { kind, values, .. } = &studio.scene().bodies[studio.viewer.view.body];
     let parameters = kind.parameters.iter();
     let is_mappable = |(index, parameter): &(usize, &Parameter)| {
         // A constant of a law may have any sign.
@@ -87,12 +88,12 @@ pub fn mappable_parameters(deck: &Deck, viewer: &Viewer) -> impl Iterator<Item =
 
 /// Returns the index of the parameter on the stability map. It is the one chosen for the displayed body, or else the
 /// one that makes the body stiffer. Returns `None` if the body has neither.
-pub fn mapped_parameter(deck: &Deck, viewer: &Viewer) -> Option<usize> {
-    let body = viewer.view.body;
-    let chosen = viewer.view.mapped_parameter.filter(|(of, _)| *of == body);
-    let kind = &deck.scene().bodies[body].kind;
+pub fn mapped_parameter(studio: &Studio) -> Option<usize> {
+    let body = studio.viewer.view.body;
+    let chosen = studio.viewer.view.mapped_parameter.filter(|(of, _)| *of == body);
+    let kind = &studio.scene().bodies[body].kind;
     let leading = kind.parameter(&kind.leading).map(|(index, _)| index);
-    let mut indices = mappable_parameters(deck, viewer);
+    let mut indices = mappable_parameters(studio);
     let wanted = chosen.map(|(_, index)| index).or(leading);
     let first = indices.next()?;
     Some(
@@ -101,51 +102,50 @@ pub fn mapped_parameter(deck: &Deck, viewer: &Viewer) -> Option<usize> {
 }
 
 /// Accepts findings, unless they are about another scene.
-pub fn accept_findings(deck: &mut Deck, viewer: &mut Viewer, findings: Findings) {
-    if findings.request.is_of(&deck.run.next().scene) {
-        viewer.findings = Some(findings);
-        select_best(deck, viewer);
+pub fn accept_findings(studio: &mut Studio, findings: Findings) {
+    if findings.request.is_of(&studio.deck.run.next().scene) {
+        studio.viewer.findings = Some(findings);
+        select_best(studio);
     }
 }
 
 /// Selects the best lane of a race once all lanes are judged, because the first lane may be the first to leave the
 /// stage. Does nothing if anybody has selected a lane, or if the scene opens as a race under a method of its own.
-pub(super) fn select_best(deck: &mut Deck, viewer: &mut Viewer) {
-    let lanes = deck.race().entrants();
-    let scene = deck.scene();
+pub(super) fn select_best(studio: &mut Studio) {
+    let lanes = studio.race().entrants();
+    let scene = studio.scene();
     let is_of_scene = scene.opens_as_race && scene.opening_method.is_some();
-    if deck.is_selected || is_of_scene || deck.mode() == Mode::Solo {
+    if studio.deck.is_selected || is_of_scene || studio.mode() == Mode::Solo {
         return;
     }
     let judged = |lane: &Entrant| {
-        let entry = deck.entry(lane);
-        Some((viewer.judged(entry)?.badness(), (lane.id, entry)))
+        let entry = studio.entry(lane);
+        Some((studio.viewer.judged(entry)?.badness(), (lane.id, entry)))
     };
     let Some(judged) = lanes.iter().map(judged).collect::<Option<Vec<_>>>() else { return };
     let best = judged.into_iter().reduce(|best, other| if other.0 < best.0 { other } else { best });
     let Some((_, (number, entry))) = best else { return };
-    deck.selected = number;
-    deck.run.next_mut().entry = entry;
-    deck.is_selected = true;
+    studio.deck.selected = number;
+    studio.deck.run.next_mut().entry = entry;
+    studio.deck.is_selected = true;
 }
 
 /// Computes the findings for the present request, as a capture does before each frame. Verdicts that exceed a fixed
 /// amount of work stay unjudged. `finish` runs the worker to its end. If it is interrupted it returns `None`, and this
 /// function returns `false`.
 pub fn analyse_bounded(
-    deck: &mut Deck,
-    viewer: &mut Viewer,
+    studio: &mut Studio,
     finish: impl FnOnce(AnalysisWorker) -> Option<Findings>,
 ) -> bool {
-    let Some(request) = unanswered_request(deck, viewer) else { return true };
+    let Some(request) = unanswered_request(studio) else { return true };
     let found = finish(AnalysisWorker::new(request).bounded());
-    found.map(|findings| accept_findings(deck, viewer, findings)).is_some()
+    found.map(|findings| accept_findings(studio, findings)).is_some()
 }
 
 /// Returns the present request for verdicts and advice, or `None` if the findings answer all of it.
-pub fn unanswered_request(deck: &Deck, viewer: &Viewer) -> Option<AnalysisRequest> {
-    let request = analysis_request(deck, viewer);
-    let known = &viewer.findings;
+pub fn unanswered_request(studio: &Studio) -> Option<AnalysisRequest> {
+    let request = studio.analysis_request();
+    let known = &studio.viewer.findings;
     (!known.as_ref().is_some_and(|known| known.answer(&request))).then_some(request)
 }
 

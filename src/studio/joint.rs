@@ -1,7 +1,7 @@
 //! A spring of a studio's scene, described as the joint of an engine.
 
+use super::Studio;
 use super::deck::Deck;
-use super::viewer::Viewer;
 use crate::run::MenuIndex;
 use crate::run::race::LaneBody;
 use crate::scene::{Action, Swing};
@@ -56,10 +56,10 @@ impl Deck {
 
 /// Returns the lines of code that set the displayed body's spring in the engine with this menu index. Returns `None` if
 /// the entry is not an engine with a joint, or if the body is not a spring.
-pub fn joint_code(deck: &Deck, viewer: &Viewer, entry: MenuIndex) -> Option<String> {
-    let spring = deck.spring_joint(viewer.view.body)?;
-    let spec = deck.entries().get(entry)?;
-    let tick_hz = f64::from(deck.race().tick_hz());
+pub fn joint_code(studio: &Studio, entry: MenuIndex) -> Option<String> {
+    let spring = studio.deck.spring_joint(studio.viewer.view.body)?;
+    let spec = studio.entries().get(entry)?;
+    let tick_hz = f64::from(studio.race().tick_hz());
     let setup = *setups(Some(&[spec.method]), tick_hz, Some(spec.substeps)).first()?;
     let joint = spec.joint.map_or(spring.joint, Swing::per_mass);
     Some(setup.code(setup.mode.values(joint, spring.mass_kg)) + "\n")
@@ -89,7 +89,7 @@ mod tests {
         assert!((hertz - 3.0).abs() < 1e-12 && (ratio - 0.25).abs() < 1e-12, "{hertz} {ratio}");
 
         let entry = studio.entries().iter().position(|spec| spec.method == box2d.method).unwrap();
-        let code = joint_code(&studio.deck, &studio.viewer, entry).unwrap();
+        let code = joint_code(&studio, entry).unwrap();
         assert!(code.contains("def.hertz = 3.0;\n"), "{code}");
         assert_eq!(
             studio.apply(DriverRequest::CopyJoint(entry)),
@@ -106,7 +106,7 @@ mod tests {
         assert_eq!(studio.apply(DriverRequest::CopyJoint(entry)), None);
         // The copied code of an engine lane with spring settings of its own has these settings.
         let alike = Studio::new(Scene::built_in("alike").unwrap());
-        let codes = [0, 3].map(|entry| joint_code(&alike.deck, &alike.viewer, entry).unwrap());
-        assert!(codes[0].contains("= 1.5;") && codes[1].contains("= 1.50169895;"), "{codes:?}");
+        let told = [0, 3].map(|entry| joint_code(&alike, entry).unwrap());
+        assert!(told[0].contains("= 1.5;") && told[1].contains("= 1.50169895;"), "{told:?}");
     }
 }

@@ -4,14 +4,12 @@ use std::path::Path;
 use std::sync::Arc;
 
 use super::Studio;
-use super::command::{StageCommand, TICK_LADDER};
 use super::deck::Deck;
-use super::dispatch::carry_out_on_stage;
 use super::guide::Goal;
 use super::guiding::{close_guide, return_from_guide};
 use super::instrument::Instrument;
 use super::step::Step;
-use super::viewer::{Dialog, Viewer};
+use super::viewer::Dialog;
 use crate::loops::loop_lab::{
     FoundLoop, LoopCommand, LoopLab, LoopRequest, LoopWorker, SLOWNESS, SLOWNESS_AT_FIRST,
 };
@@ -22,10 +20,17 @@ use crate::sim::integrators::{Method, method};
 /// Initial method of the body in the loop lab. Its error is small.
 const METHOD_AT_FIRST: &str = "rk4";
 
+/// The open loop lab, and the state that returns when it closes.
+pub(super) struct OpenLab {
+    pub(super) lab: Box<LoopLab>,
+    run_goes_on: bool,
+    stage_was_alone: bool,
+}
+
 /// Returns the reason why the loop lab refuses the displayed body, or `None` if it accepts the body. It refuses a net,
 /// because preparing a net for every loop would take too long.
-pub fn loop_lab_refusal(deck: &Deck, viewer: &Viewer) -> Option<String> {
-    let SceneBody { name, kind, .. } = &deck.scene().bodies[viewer.view.body];
+pub fn loop_lab_refusal(studio: &Studio) -> Option<String> {
+    let SceneBody { name, kind, .. } = &studio.scene().bodies[studio.viewer.view.body];
     let refusal = "is a net, which the loop lab does not take; open another scene";
     kind.net().is_some().then(|| format!("{name} {refusal}"))
 }
@@ -33,25 +38,25 @@ pub fn loop_lab_refusal(deck: &Deck, viewer: &Viewer) -> Option<String> {
 /// Opens the loop lab with the displayed body, unless the body is [refused](loop_lab_refusal).
 pub(super) fn open_loop_lab(studio: &mut Studio) {
     let body = studio.viewer.view.body;
-    let flown = studio.deck.selected().spec.method;
+    let flown = studio.selected().spec.method;
     // A run that has begun goes on in the lab under its method and at its rate, as far as the lab has them.
-    let has_begun = studio.deck.race().tick() > 0;
+    let has_begun = studio.race().tick() > 0;
     let usual = method(METHOD_AT_FIRST).expect("a built-in method");
     let method = if has_begun { flown } else { usual };
-    if let Some(refusal) = loop_lab_refusal(&studio.deck, &studio.viewer) {
+    if let Some(refusal) = loop_lab_refusal(studio) {
         return studio.viewer.set_notice(refusal);
     }
-    let mut loops = LoopLab::new(studio.deck.scene(), body, method);
-    loops.run_goes_on = studio.deck.running;
-    loops.stage_was_alone = !studio.viewer.display().measure;
+    let mut loops = LoopLab::new(studio.scene(), body, method);
+    let run_goes_on = studio.deck.running;
+    let stage_was_alone = !studio.display().measure;
     studio.viewer.preferences.display.measure = true;
     if has_begun {
-        loops.set_tick_hz(studio.deck.race().tick_hz());
-        loops.set_slowness(slowness_of(studio.deck.clock().speed_percent()));
+        loops.set_tick_hz(studio.race().tick_hz());
+        loops.set_slowness(slowness_of(studio.clock().speed_percent()));
     } else {
         loops.play_opening();
     }
-    studio.loops = Some(loops.into());
+    studio.loops = Some(OpenLab { lab: loops.into(), run_goes_on, stage_was_alone });
     studio.viewer.preferences.display.instrument = Instrument::Loop;
     studio.viewer.preferences.display.inspector = false;
     studio.deck.let_go();
@@ -59,8 +64,8 @@ pub(super) fn open_loop_lab(studio: &mut Studio) {
     if studio.viewer.tour.as_ref().is_some_and(|tour| tour.stop().goal != Goal::LoopLab) {
         studio.viewer.leave_guide(studio.deck.left.as_deref());
         studio.viewer.set_notice("the guide is closed: F2 opens it again, L leads to your own run");
-    } else if let Some(loops) = studio.loops.as_ref().filter(|_| has_begun) {
-        studio.viewer.set_notice(format!(
+    } else if let Some(loops) = studio.loop_lab().filter(|_| has_begun) {
+        let notice = format!(
             "the loops start again at t = 0, with your {} at {:.3} Hz, {}",
             loops.method().name,
             loops.scene().tick_hz,
@@ -68,7 +73,8 @@ pub(super) fn open_loop_lab(studio: &mut Studio) {
                 1 => "in real time".into(),
                 slowness => format!("{slowness} times slower"),
             },
-        ));
+        );
+        studio.viewer.set_notice(notice);
     }
     studio.deck.running = true;
 }
@@ -82,7 +88,7 @@ fn slowness_of(speed_percent: u32) -> u32 {
 
 /// Closes the guide, and a loop lab that shows the motion of the guide's stop. Returns whether the guide was open.
 pub(super) fn close_guide_and_lab(studio: &mut Studio) -> bool {
-    let is_closed = close_guide(&mut studio.deck, &mut studio.viewer);
+    let is_closed = close_guide(studio);
     studio.loops.take_if(|_| is_closed);
     is_closed
 }
@@ -90,15 +96,15 @@ pub(super) fn close_guide_and_lab(studio: &mut Studio) -> bool {
 /// Leaves the loop lab. The run resumes or stays paused as before. If the guide was closed meanwhile, the run that the
 /// person left for it returns. Returns whether the loop lab was open.
 pub(super) fn leave_loop_lab(studio: &mut Studio) -> bool {
-    let Some(loops) = studio.loops.take() else { return false };
-    studio.deck.running = loops.run_goes_on;
-    studio.viewer.preferences.display.measure = !loops.stage_was_alone;
+    let Some(open) = studio.loops.take() else { return false };
+    studio.deck.running = open.run_goes_on;
+    studio.viewer.preferences.display.measure = !open.stage_was_alone;
     studio.viewer.notice = None;
-    if studio.viewer.display().instrument == Instrument::Loop {
+    if studio.display().instrument == Instrument::Loop {
         studio.viewer.preferences.display.instrument = Instrument::Motion;
     }
     if studio.viewer.tour.is_none() {
-        return_from_guide(&mut studio.deck, &mut studio.viewer);
+        return_from_guide(studio);
     }
     true
 }
@@ -106,7 +112,7 @@ pub(super) fn leave_loop_lab(studio: &mut Studio) -> bool {
 /// Opens the loop lab on the trace of this name, if there is one.
 pub fn open_loop_lab_on(studio: &mut Studio, trace: &str) {
     open_loop_lab(studio);
-    if let Some(loops) = &mut studio.loops
+    if let Some(loops) = studio.loop_lab_mut()
         && let Some(index) = loops.traces().iter().position(|known| known.name() == trace)
     {
         loops.choose_trace(index);
@@ -119,7 +125,7 @@ pub fn open_traces(studio: &mut Studio, traces: Vec<FrameTrace>) {
     if studio.loop_lab().is_none() {
         open_loop_lab(studio);
     }
-    if let Some(loops) = &mut studio.loops
+    if let Some(loops) = studio.loop_lab_mut()
         && !traces.is_empty()
     {
         let missing = traces[0].missing_display();
@@ -160,7 +166,7 @@ pub fn open_own_loop(studio: &mut Studio, card: &'static PolicyCard) {
     if studio.loop_lab().is_none() {
         open_loop_lab(studio);
     }
-    if let Some(loops) = &mut studio.loops {
+    if let Some(loops) = studio.loop_lab_mut() {
         loops.run_beside(card);
         loops.end_opening();
         studio.viewer.dialog.take_if(|dialog| matches!(dialog, Dialog::Mistakes { .. }));
@@ -177,7 +183,7 @@ pub fn loop_request(studio: &Studio) -> Option<Arc<LoopRequest>> {
 
 /// Shows a finished loop, if the loop lab still needs it.
 pub fn accept_loop(studio: &mut Studio, found: FoundLoop) {
-    if let Some(loops) = &mut studio.loops {
+    if let Some(loops) = studio.loop_lab_mut() {
         loops.accept(found);
     }
 }
@@ -191,81 +197,38 @@ pub fn run_loops(studio: &mut Studio) {
     }
 }
 
-/// Executes a command on the stage while the stage shows the loop lab.
-pub(super) fn carry_out_in_loop_lab(studio: &mut Studio, command: StageCommand) {
-    let Some(loops) = &mut studio.loops else { return };
-    let tick_hz = loops.scene().tick_hz;
-    let frames_per_second = loops.traces()[loops.trace()].refresh().hz().round() as i64;
-    match command {
-        StageCommand::ToggleRace | StageCommand::OpenSpring => {
-            leave_loop_lab(studio);
-            studio.viewer.measure_for(&command.clone().into());
-            return carry_out_on_stage(&mut studio.deck, &mut studio.viewer, command);
-        }
-        StageCommand::Pick(index) => loops.select(index),
-        StageCommand::ToggleArrangement => loops.toggle_overlay(),
-        StageCommand::InstrumentBeside(step) => {
-            loops.choose_trace(step.cyclic_index(loops.trace(), loops.traces().len()));
-        }
-        StageCommand::Restart => loops.seek(0),
-        StageCommand::Tick(step) => step_loops(&mut studio.deck, loops, step.sign()),
-        StageCommand::Second(step) => {
-            step_loops(&mut studio.deck, loops, step.sign() * frames_per_second);
-        }
-        StageCommand::MethodBeside(step) => {
-            let beside = method_beside(loops, step);
-            set_loop_method(&mut studio.viewer, loops, beside);
-        }
-        StageCommand::Method(method) => set_loop_method(&mut studio.viewer, loops, method),
-        StageCommand::TickHz(tick_hz) => loops.set_tick_hz(tick_hz),
-        StageCommand::TickRate(step) => {
-            let beside = step.next_rung(&TICK_LADDER, tick_hz);
-            if let Some(hz) = beside {
-                loops.set_tick_hz(hz);
-            }
-        }
-        StageCommand::Speed(step) => {
-            let beside = step.opposite().next_rung(&SLOWNESS, loops.slowness());
-            if let Some(slowness) = beside {
-                loops.set_slowness(slowness);
-            }
-        }
-        StageCommand::Scene(_) | StageCommand::SceneBeside(_) | StageCommand::Body(_) => {
-            let running = studio.deck.running;
-            carry_out_on_stage(&mut studio.deck, &mut studio.viewer, command);
-            studio.deck.running = running;
-            if let Some(refusal) = loop_lab_refusal(&studio.deck, &studio.viewer) {
-                leave_loop_lab(studio);
-                return studio.viewer.set_notice(refusal);
-            }
-            let (scene, body) = (studio.deck.run.next().scene.clone(), studio.viewer.view.body);
-            if let Some(loops) = &mut studio.loops {
-                loops.show(&scene, body);
-            }
-        }
-        StageCommand::Metric(index) => loops.set_metric(index),
-        StageCommand::Instrument(instrument) if instrument.is_in_loop_lab() => {
-            studio.viewer.preferences.display.instrument = instrument;
-            return;
-        }
-        StageCommand::Instrument(instrument) => {
-            let name = instrument.name();
-            studio.viewer.set_notice(format!("{name} is not in the loop lab: L leaves it"));
-        }
-    }
-    if let Some(loops) = &mut studio.loops {
+/// Shows a notice that the loop lab accepts no command on the run.
+pub(super) fn refuse_in_loop_lab(studio: &mut Studio) {
+    studio.viewer.set_notice("not in the loop lab: L leaves it");
+    end_opening(studio);
+}
+
+/// Lets the lab's playback stay on its trace after a command.
+pub(super) fn end_opening(studio: &mut Studio) {
+    if let Some(loops) = studio.loop_lab_mut() {
         loops.end_opening();
     }
 }
 
-/// Shows a notice that the loop lab accepts no command on the run.
-pub(super) fn refuse_in_loop_lab(viewer: &mut Viewer, loops: &mut LoopLab) {
-    viewer.set_notice("not in the loop lab: L leaves it");
-    loops.end_opening();
+/// Shows the displayed body in the open lab, which closes if it refuses the body.
+pub(super) fn show_in_loop_lab(studio: &mut Studio) {
+    if let Some(refusal) = loop_lab_refusal(studio) {
+        leave_loop_lab(studio);
+        return studio.viewer.set_notice(refusal);
+    }
+    let (scene, body) = (studio.deck.run.next().scene.clone(), studio.viewer.view.body);
+    if let Some(loops) = studio.loop_lab_mut() {
+        loops.show(&scene, body);
+    }
 }
 
 pub(super) fn change_loop_lab(studio: &mut Studio, command: LoopCommand) {
-    let Some(loops) = &mut studio.loops else { return };
+    let Some(loops) = studio.loop_lab_mut() else {
+        if command == LoopCommand::ToggleLab {
+            open_loop_lab(studio);
+        }
+        return;
+    };
     match command {
         LoopCommand::ToggleLab => drop(leave_loop_lab(studio)),
         LoopCommand::Select(index) => loops.select(index),
@@ -273,24 +236,24 @@ pub(super) fn change_loop_lab(studio: &mut Studio, command: LoopCommand) {
         LoopCommand::ToggleOnStage(index) => loops.toggle(index),
         LoopCommand::Trace(index) => loops.choose_trace(index),
         LoopCommand::Slowness(slowness) => loops.set_slowness(slowness),
-        LoopCommand::ShowGameTime(shows_it) => loops.show_game_time(shows_it),
+        LoopCommand::ShowGameTime(shows_it) => loops.shows_game_time = shows_it,
         LoopCommand::Seek(now_ns) => {
             loops.seek(now_ns);
             studio.deck.running = false;
         }
     }
-    if let Some(loops) = &mut studio.loops {
-        loops.end_opening();
-    }
+    end_opening(studio);
 }
 
-fn method_beside(loops: &LoopLab, step: Step) -> &'static Method {
+pub(super) fn method_beside(loops: &LoopLab, step: Step) -> &'static Method {
     let methods: Vec<_> = loops.scene().fitting_methods().collect();
     let index = methods.iter().position(|method| *method == loops.method()).unwrap_or(0);
     methods[step.cyclic_index(index, methods.len())]
 }
 
-fn set_loop_method(viewer: &mut Viewer, loops: &mut LoopLab, method: &'static Method) {
+/// Steps every loop by a method, with a notice.
+pub(super) fn set_loop_method(studio: &mut Studio, method: &'static Method) {
+    let Some(loops) = studio.loop_lab_mut() else { return };
     let notice = match loops.scene().refusal(method) {
         Some(refusal) => refusal.to_string(),
         None => {
@@ -298,16 +261,11 @@ fn set_loop_method(viewer: &mut Viewer, loops: &mut LoopLab, method: &'static Me
             format!("every loop steps by {}", method.name)
         }
     };
-    viewer.set_notice(notice);
-}
-
-fn step_loops(deck: &mut Deck, loops: &mut LoopLab, frames: i64) {
-    deck.running = false;
-    loops.step(frames);
+    studio.viewer.set_notice(notice);
 }
 
 pub(super) fn title_of_loops(deck: &Deck, loops: &LoopLab) -> String {
-    let trace = loops.traces()[loops.trace()].name();
+    let trace = loops.chosen_trace().name();
     let paused = if deck.running { "" } else { " (paused)" };
     format!(
         "Regatta - {} - loop lab: {} - {trace} - {:.3} Hz{paused}",

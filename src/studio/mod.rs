@@ -4,6 +4,26 @@
 //! A [`Studio`] executes [`Command`]s, which come from [`KEYS`] and [`GESTURES`]. It passes anything that it cannot do
 //! itself to the driver, as a [`DriverRequest`]. Its [`Viewer`] has the [`Preferences`], which outlast the scene, and
 //! the [`View`], which does not. [`INSTRUMENTS`] surround the stage, and the [`guide`] leads through the scenes.
+//!
+//! `apply.rs` passes each command on. Functions that execute one take the whole [`Studio`]:
+//!
+//! | Command | File |
+//! |---|---|
+//! | [`RunCommand`], [`StageCommand`] | `dispatch.rs`, for a run and for the loop lab |
+//! | – actions, methods, lanes, ticks, seeking, equal cost | `acting.rs` |
+//! | – bands | `bands.rs` |
+//! | – restart, undo, redo, plotted coordinates | `restarting.rs` |
+//! | – scenes, files, a described spring | `opening.rs` |
+//! | – watching a blow-up again | `resting.rs` |
+//! | [`LoopCommand`](crate::loops::loop_lab::LoopCommand), and a stage command in the loop lab | `looping.rs` |
+//! | [`ViewCommand`] | `apply.rs` |
+//! | – stops of the guide | `guiding.rs` |
+//! | – a person's lines, the book's figures | `my_lines.rs`, `book_figure.rs` |
+//! | – Escape | `escaping.rs` |
+//! | [`DriverRequest`] | the driver |
+//!
+//! Time itself passes in `driving.rs`, a pulled body is pushed in `pulling.rs`, and findings come back in `findings.rs`
+//! and `clouding.rs`.
 
 // The rules of a room: see `src/lib.rs` and clippy.toml.
 #![warn(clippy::exit, clippy::print_stderr, clippy::print_stdout)]
@@ -20,7 +40,7 @@ use regatta_tools as tools;
 
 use crate::loops::Due;
 use crate::loops::loop_lab::LoopLab;
-use crate::measure::{AnalysisRequest, AnalysisWorker};
+use crate::measure::AnalysisWorker;
 use crate::run::past::Past;
 use crate::run::race::{Entrant, Mode, Observer, Race};
 use crate::run::{MenuIndex, Run, Session, StartSettings};
@@ -29,8 +49,7 @@ use crate::sim::Clock;
 use crate::sim::integrators::Method;
 use clouding::wait_for_cloud;
 use driving::{advance, make_tick};
-use guiding::hint;
-use looping::title_of_loops;
+use looping::{OpenLab, title_of_loops};
 
 mod acting;
 mod ahead;
@@ -92,8 +111,7 @@ pub use display::{Arrangement, Display, DriverRequest, Motion, Pace, Splits, Vie
 pub use driving::{pace_in_words, shown_s, shown_state, shown_tick, shown_truth, slowed_in_words};
 pub use file_names::{instrument_file_name, picture_file_name};
 pub use findings::{
-    accept_findings, analyse_bounded, analysis_request, mappable_parameters, mapped_parameter,
-    unanswered_request,
+    accept_findings, analyse_bounded, mappable_parameters, mapped_parameter, unanswered_request,
 };
 pub use frame_loop::{FrameLoop, ToDo};
 pub use gesture::{GESTURES, Gesture};
@@ -131,7 +149,7 @@ pub struct Studio {
     /// The person's view, and the texts beside it.
     pub viewer: Viewer,
     /// The loop lab, while the stage shows it and the run waits.
-    pub(crate) loops: Option<Box<LoopLab>>,
+    loops: Option<OpenLab>,
 }
 
 impl Studio {
@@ -240,12 +258,16 @@ impl Studio {
     }
     /// Returns the open loop lab, or `None` while the stage shows a run.
     pub fn loop_lab(&self) -> Option<&LoopLab> {
-        self.loops.as_deref()
+        self.loops.as_ref().map(|open| &*open.lab)
+    }
+
+    fn loop_lab_mut(&mut self) -> Option<&mut LoopLab> {
+        self.loops.as_mut().map(|open| &mut *open.lab)
     }
 
     /// Returns the title of the window, which people and tests read.
     pub fn title(&self) -> String {
-        if let Some(loops) = &self.loops {
+        if let Some(loops) = self.loop_lab() {
             return title_of_loops(&self.deck, loops);
         }
         let race = if self.mode() == Mode::Race { "race: " } else { "" };
@@ -259,15 +281,9 @@ impl Studio {
         )
     }
 
-    /// Returns the next thing to try, which a run at rest, the guide, the scene or the program suggests. Keys stand
-    /// between backticks.
-    pub fn hint(&self) -> Option<String> {
-        hint(&self.deck, &self.viewer, self.loops.is_some())
-    }
-
     /// Performs the actions at this tick, and steps to the next tick.
     pub fn tick(&mut self) {
-        make_tick(&mut self.deck, &mut self.viewer, &mut ());
+        make_tick(self, &mut ());
         self.deck.follow_with_compared(self.deck.race().t());
     }
 
@@ -286,32 +302,26 @@ impl Studio {
         observer: &mut dyn Observer,
     ) -> Due {
         let waits_for_cloud = wait_for_cloud(self, frame_ns);
-        let Self { deck, viewer, loops } = self;
-        if !deck.time_runs() {
-            viewer.live.jump();
+        if !self.deck.time_runs() {
+            self.viewer.live.jump();
             return Due::default();
         }
-        viewer.pass_time(frame_ns);
-        if let Some(loops) = loops {
+        self.viewer.pass_time(frame_ns);
+        if let Some(loops) = self.loop_lab_mut() {
             loops.advance(frame_ns);
             return Due::default();
         }
         if waits_for_cloud {
             return Due::default();
         }
-        advance(deck, viewer, last, frame_ns, is_time_left, observer)
-    }
-
-    /// Returns the verdicts and the advice that the studio needs now, as described at [`analysis_request`].
-    pub fn analysis_request(&self) -> AnalysisRequest {
-        analysis_request(&self.deck, &self.viewer)
+        advance(self, last, frame_ns, is_time_left, observer)
     }
 
     /// Computes all requested verdicts and advice at once.
     pub fn analyse(&mut self) {
-        if let Some(request) = unanswered_request(&self.deck, &self.viewer) {
+        if let Some(request) = unanswered_request(self) {
             let findings = AnalysisWorker::new(request).finish();
-            accept_findings(&mut self.deck, &mut self.viewer, findings);
+            accept_findings(self, findings);
         }
     }
 
@@ -319,7 +329,7 @@ impl Studio {
     pub fn accept(&mut self, found: Found) {
         match found {
             Found::Analysed(findings) => {
-                accept_findings(&mut self.deck, &mut self.viewer, *findings);
+                accept_findings(self, *findings);
             }
             Found::LoopRun(found) => accept_loop(self, *found),
             Found::Clouds(found) => accept_cloud(self, *found),

@@ -54,7 +54,7 @@ pub(super) fn run_lines(studio: &mut Studio) {
         true => rule_scene(NAME, &text, FPS.into())
             .map(|scene| {
                 studio.loops = None;
-                open_as(&mut studio.deck, &mut studio.viewer, MY_LINES, scene, Mode::Race);
+                open_as(studio, MY_LINES, scene, Mode::Race);
             })
             .map_err(Vec::from),
         false => LaneSpec::from_step(NAME, text.as_bytes())

@@ -5,10 +5,10 @@
 //! person who looks away would miss both. Only a watched run rests: a capture or a test gets every tick that it asks
 //! for.
 
+use super::Studio;
 use super::acting::seek;
 use super::deck::Deck;
 use super::display::Motion;
-use super::viewer::Viewer;
 use crate::run::race::{Halt, Mode};
 use crate::sim::number::{round, significant};
 
@@ -55,30 +55,30 @@ impl Deck {
 }
 
 /// Returns the hint for a run at rest. Keys stand between backticks.
-pub(super) fn rest_hint(deck: &Deck, viewer: &Viewer) -> Option<String> {
-    if deck.running || !deck.comes_to_rest(viewer.motion()) {
+pub(super) fn rest_hint(studio: &Studio) -> Option<String> {
+    if studio.deck.running || !studio.deck.comes_to_rest(studio.viewer.motion()) {
         return None;
     }
-    if let Some(halt) = deck.just_lost(viewer.motion()) {
-        let (name, how) = (deck.lane_name(deck.active()), halt.ending());
+    if let Some(halt) = studio.deck.just_lost(studio.viewer.motion()) {
+        let (name, how) = (studio.lane_name(studio.active()), halt.ending());
         let t = significant(halt.t, 3);
         return Some(format!(
             "{name} {how} at {t} s. `W` shows it again, `Home` starts over, `Space` goes on."
         ));
     }
-    let seconds = round(deck.scene().seconds, 4);
+    let seconds = round(studio.scene().seconds, 4);
     Some(format!("The {seconds} s of this scene are over. `Home` starts again, `Space` goes on."))
 }
 
 /// Rewinds to some time before the latest halt in the selected lane, and runs.
-pub(super) fn watch_again(deck: &mut Deck, viewer: &mut Viewer) {
-    let Some(tick) = deck.lost_at() else {
-        return viewer.set_notice("nothing has halted in this lane");
+pub(super) fn watch_again(studio: &mut Studio) {
+    let Some(tick) = studio.deck.lost_at() else {
+        return studio.viewer.set_notice("nothing has halted in this lane");
     };
-    let lead = ((LEAD_S * f64::from(deck.race().tick_hz())) as u64).max(MIN_LEAD);
-    seek(deck, viewer, tick.saturating_sub(lead));
-    viewer.notice = None;
-    deck.running = true;
+    let lead = ((LEAD_S * f64::from(studio.race().tick_hz())) as u64).max(MIN_LEAD);
+    seek(studio, tick.saturating_sub(lead));
+    studio.viewer.notice = None;
+    studio.deck.running = true;
 }
 
 #[cfg(test)]
@@ -110,11 +110,7 @@ mod tests {
         // The time covers the scene's length, because nothing is slowed down.
         watch(&mut studio, 21);
         assert_eq!((studio.race().t(), studio.running()), (studio.scene().seconds, false));
-        assert_eq!(
-            slow_motion(&studio.deck, &studio.viewer),
-            1000,
-            "a swing that grows by itself is fast enough"
-        );
+        assert_eq!(slow_motion(&studio), 1000, "a swing that grows by itself is fast enough");
         let hint = studio.hint().expect("what to do");
         assert!(hint.contains("`Home`") && hint.contains("`Space`"), "{hint}");
         studio.apply(ViewCommand::TogglePause);

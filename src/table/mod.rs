@@ -199,36 +199,38 @@ pub struct TableReader<R> {
     taken: Option<[u64; 2]>,
 }
 
-impl<R: BufRead> TableReader<R> {
-    /// Reads a table up to its header, which is the first line for which `is_header` is true. If there is no such line,
-    /// the first line that is neither blank nor a remark becomes the header, unless it is a row of numbers.
-    ///
-    /// # Errors
-    /// If the input cannot be read, has too long a line, or has only blank lines and remarks, or if a column of the
-    /// options is missing.
-    pub fn begin(
-        input: R,
-        reading: Reading,
-        is_header: impl Fn(&ByteRecord) -> bool,
+/// The lines of a table up to the one that begins it.
+struct Head {
+    /// The first line of the table, with its end.
+    rest: Vec<u8>,
+    /// Number of lines above it.
+    above: u64,
+    is_found: bool,
+    /// The last remark above the first line.
+    remark: Option<Vec<u8>>,
+}
+
+impl Head {
+    /// Reads up to the first line that `is_header`, which is told whether it is the first with cells, or `most` lines.
+    fn read<R: BufRead>(
+        input: &mut Text<R>,
+        most: u64,
+        has_header: Option<bool>,
+        is_header: impl Fn(&[u8], bool) -> bool,
     ) -> Result<Self, TableError> {
-        let too_long =
-            |line| TableError { line, fault: TableFault::Input(io::Error::other(TooLong)) };
-        let at_start = |fault| TableError { line: 1, fault };
-        let (mut input, has_header) = Text::of(input).map_err(at_start)?;
-        let own_lines = input.own_lines();
-        let told = reading.options.separator.filter(|_| has_header.is_none());
         let (mut head, mut starts) = (Vec::new(), Vec::<usize>::new());
         let (mut first, mut found, mut remark) = (None, None, None);
         let mut candidates = 0;
-        let is_headless = reading.options.no_header || has_header == Some(false);
-        let most = if is_headless || has_header.is_some() { 0 } else { MAX_ABOVE };
         while candidates <= most && found.is_none() {
             let start = head.len();
             let read = input.input().take(MAX_ROW_BYTES as u64).read_until(b'\n', &mut head);
             let line = starts.len() as u64 + 1;
             read.map_err(|error| TableError { line, fault: TableFault::Input(error) })?;
             if head.len() - start == MAX_ROW_BYTES || head.len() > MAX_HEAD_BYTES {
-                return Err(too_long(line));
+                return Err(TableError {
+                    line,
+                    fault: TableFault::Input(io::Error::other(TooLong)),
+                });
             }
             if head.len() == start {
                 break;
@@ -245,18 +247,43 @@ impl<R: BufRead> TableReader<R> {
                 continue;
             }
             let here = starts.len() - 1;
-            let is_list = reading.lists && first.is_none() && is_number(text);
-            found = (is_list || is_header(&cells(text, told))).then_some(here);
+            found = is_header(text, first.is_none()).then_some(here);
             first.get_or_insert(here);
             candidates += 1;
         }
-        let at = found.or(first).ok_or(at_start(TableFault::Empty))?;
-        let mut rest = head.split_off(starts[at]);
+        let at = found.or(first).ok_or(TableError { line: 1, fault: TableFault::Empty })?;
+        let rest = head.split_off(starts[at]);
+        Ok(Self { rest, above: at as u64, is_found: found.is_some(), remark })
+    }
+}
+
+impl<R: BufRead> TableReader<R> {
+    /// Reads a table up to its header, which is the first line for which `is_header` is true. If there is no such line,
+    /// the first line that is neither blank nor a remark becomes the header, unless it is a row of numbers.
+    ///
+    /// # Errors
+    /// If the input cannot be read, has too long a line, or has only blank lines and remarks, or if a column of the
+    /// options is missing.
+    pub fn begin(
+        input: R,
+        reading: Reading,
+        is_header: impl Fn(&ByteRecord) -> bool,
+    ) -> Result<Self, TableError> {
+        let at_start = |fault| TableError { line: 1, fault };
+        let (mut input, has_header) = Text::of(input).map_err(at_start)?;
+        let own_lines = input.own_lines();
+        let told = reading.options.separator.filter(|_| has_header.is_none());
+        let is_headless = reading.options.no_header || has_header == Some(false);
+        let most = if is_headless || has_header.is_some() { 0 } else { MAX_ABOVE };
+        let Head { mut rest, above, is_found, remark } =
+            Head::read(&mut input, most, has_header, |text, is_first| {
+                reading.lists && is_first && is_number(text) || is_header(&cells(text, told))
+            })?;
         let end = rest.iter().position(|byte| *byte == b'\n').unwrap_or(rest.len());
         let line = rest[..end].trim_ascii().to_vec();
         let is_list = reading.lists && is_number(&line) && !line.contains(&b',') | told.is_none();
         let is_spaced = |line: &[u8]| !line.contains(&b',') && of_spaces(line).len() > 1;
-        if !is_list && !is_spaced(&line) && rest.len() <= end + 1 && found.is_none() {
+        if !is_list && !is_spaced(&line) && rest.len() <= end + 1 && !is_found {
             // A heading of words above cells that spaces separate.
             let read = input.input().take(MAX_ROW_BYTES as u64).read_until(b'\n', &mut rest);
             read.map_err(|error| TableError { line: 1, fault: TableFault::Input(error) })?;
@@ -280,7 +307,7 @@ impl<R: BufRead> TableReader<R> {
         let is_row = |row: &ByteRecord| are_numbers(&row.iter().collect::<Vec<_>>());
         let has_no_header = is_headless
             || is_list
-            || reading.headless && found.is_none() && has_header.is_none() && is_row(&of_line);
+            || reading.headless && !is_found && has_header.is_none() && is_row(&of_line);
         let heading = remark.filter(|_| has_no_header && !is_headless).and_then(|remark| {
             let start = remark.iter().position(|byte| !b"#/ ".contains(byte))?;
             let of = |separator| cells(&remark[start..], Some(separator));
@@ -300,11 +327,9 @@ impl<R: BufRead> TableReader<R> {
                 gap: (separator == b' ').then_some(true),
             });
         let mut first = ByteRecord::new();
-        let above = at as u64;
-        rows.read_byte_record(&mut first).map_err(|error| TableError {
-            line: above + 1,
-            fault: TableFault::Input(error.into()),
-        })?;
+        let at_header = |fault| TableError { line: above + 1, fault };
+        let read = rows.read_byte_record(&mut first);
+        read.map_err(|error| at_header(TableFault::Input(error.into())))?;
         if separator == b' ' && first.get(first.len().wrapping_sub(1)) == Some(b"") {
             first.truncate(first.len() - 1);
         }
@@ -319,7 +344,6 @@ impl<R: BufRead> TableReader<R> {
             }
             None => (first, None),
         };
-        let at_header = |fault| TableError { line: above + 1, fault };
         let filter = RowFilter::of(&header, &reading.options).map_err(at_header)?;
         Ok(Self {
             rows,

@@ -65,8 +65,7 @@ pub fn clipboard_text(
             }
         }
         DriverRequest::CopyJoint(entry) => {
-            let (code, method) =
-                (joint_code(&studio.deck, &studio.viewer, entry)?, studio.entries()[entry].method);
+            let (code, method) = (joint_code(studio, entry)?, studio.entries()[entry].method);
             let success_notice = format!("copied the spring's settings of {}", method.name);
             (code, success_notice, format!("`regatta port --to {}` prints them", method.id))
         }

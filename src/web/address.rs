@@ -89,7 +89,7 @@ impl Address {
                     return Err(LinkError::unknown("loop", trace, &names).to_string());
                 }
             }
-            None => show_clouds_of_scene(&mut studio.deck, &mut studio.viewer),
+            None => show_clouds_of_scene(&mut studio),
         }
         Ok(studio)
     }
@@ -146,7 +146,7 @@ mod tests {
         assert_eq!(opened("#scene=engines").mode(), Mode::Race);
         let studio = opened("#scene=spring&loop=steady-144");
         let loops = studio.loop_lab().unwrap();
-        assert_eq!(loops.traces()[loops.trace()].name(), "steady-144");
+        assert_eq!(loops.chosen_trace().name(), "steady-144");
         let studio = opened("#theme=light");
         assert_eq!((studio.scene().name.as_str(), studio.bands()), ("two-springs", vec![0, 1]));
         assert_eq!(opened("#instrument=energy").scene().name, "harbour");

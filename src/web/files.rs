@@ -108,7 +108,7 @@ impl Driver {
             scene.map(|scene| open_file(studio, path, scene))
         };
         if let Err(report) = opened {
-            show_mistakes(&mut studio.deck, &mut studio.viewer, path, report);
+            show_mistakes(studio, path, report);
         }
         self.frames.skip_time();
         self.request_frame();

@@ -18,7 +18,7 @@ pub fn golden_race(scene: &str) -> Vec<u8> {
     for _ in 0..130 {
         studio.advance(16_666_667);
     }
-    analyse_bounded(&mut studio.deck, &mut studio.viewer, |worker| Some(worker.finish()));
+    analyse_bounded(&mut studio, |worker| Some(worker.finish()));
     if let Ok(mut renderer) = OffscreenRenderer::new([400, 225], 0.5) {
         renderer.draw(&studio, &mut rgba).expect("the processor returns every frame");
     }

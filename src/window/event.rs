@@ -106,22 +106,17 @@ impl App {
                 self.request_redraw();
             }
             Event::FileGone(path) => {
-                file_is_gone(&mut self.frames.studio.deck, &mut self.frames.studio.viewer, &path);
+                file_is_gone(&mut self.frames.studio, &path);
                 self.request_redraw();
             }
             Event::FileBack(path) => {
-                file_is_back(&mut self.frames.studio.deck, &mut self.frames.studio.viewer, &path);
+                file_is_back(&mut self.frames.studio, &path);
                 self.request_redraw();
             }
             Event::FileChanged { path, read } => {
                 match *read {
                     Ok((scene, _)) => reload_file(&mut self.frames.studio, &path, scene),
-                    Err(report) => reload_failed(
-                        &mut self.frames.studio.deck,
-                        &mut self.frames.studio.viewer,
-                        &path,
-                        report,
-                    ),
+                    Err(report) => reload_failed(&mut self.frames.studio, &path, report),
                 }
                 // Do not simulate the time that this took.
                 self.stand_still();

@@ -178,10 +178,8 @@ impl ReadFile {
                 let name = path.file_name().unwrap_or_default().to_string_lossy();
                 show_comparison(studio, &name, &found, recording);
             }
-            Err(report) if is_typed => {
-                refuse_typed_path(&mut studio.deck, &mut studio.viewer, &path, report)
-            }
-            Err(report) => show_mistakes(&mut studio.deck, &mut studio.viewer, &path, report),
+            Err(report) if is_typed => refuse_typed_path(studio, &path, report),
+            Err(report) => show_mistakes(studio, &path, report),
         }
     }
 }

@@ -510,10 +510,10 @@ fn lanes_share_the_axes_of_their_clouds_and_lost_points_are_counted() {
 fn a_body_of_several_coordinates_has_no_cloud_with_the_reason() {
     let studio = race_of("orbit", &["rk4"], CloudShape::default());
     assert!(cloud_request(&studio).is_none());
-    let why = cloud_refusal(&studio.deck, &studio.viewer).unwrap().to_string();
+    let why = cloud_refusal(&studio).unwrap().to_string();
     assert!(why.contains("satellite has 2"), "{why}");
     let studio = race_of("spring", &["rk4"], CloudShape::default());
-    assert!(cloud_refusal(&studio.deck, &studio.viewer).is_none());
+    assert!(cloud_refusal(&studio).is_none());
 }
 
 #[test]

@@ -125,12 +125,12 @@ fn the_ghost_is_the_exact_motion_at_the_moment_of_the_lanes() {
             studio.apply(RunCommand::NextInterpolation);
             let picture = compose(&studio, size);
             let x = picture.cells[0].metres(ghost(&studio, &picture)[0].at).x;
-            let exact = libm::cos(TAU * shown_s(&studio.deck, &studio.viewer));
+            let exact = libm::cos(TAU * shown_s(&studio));
             assert!((x - exact).abs() < 1e-3, "frame {frame}: {x} m, truly {exact} m");
             reach = (reach.0.min(x), reach.1.max(x));
         }
         assert_eq!(studio.display().interpolation, Interpolation::Monotone);
-        assert!((shown_s(&studio.deck, &studio.viewer) - moment_s).abs() < 1e-12, "frame {frame}");
+        assert!((shown_s(&studio) - moment_s).abs() < 1e-12, "frame {frame}");
     }
     assert!(reach.0 < -0.99 && reach.1 > 0.99, "{reach:?}");
 }

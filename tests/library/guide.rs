@@ -307,8 +307,7 @@ fn each_step_of_explicit_euler_makes_the_swing_18_percent_wider_at_10_hz() {
     let omega = std::f64::consts::TAU;
     let swing = |[q, v]: [f64; 2]| q.hypot(v / omega);
     for _ in 0..4 {
-        let OneStep { from, landing, .. } =
-            one_step(&studio.deck, &studio.viewer).expect("a next step");
+        let OneStep { from, landing, .. } = one_step(&studio).expect("a next step");
         let wider = swing(landing.expect("it lands")) / swing(from);
         assert!((1.175..1.185).contains(&wider), "{wider}");
         studio.apply(StageCommand::Tick(Step::Next));

@@ -45,7 +45,7 @@ fn sailed(scene: &str, race: bool, mut each_frame: impl FnMut(&Studio)) -> Studi
         studio.advance(16_666_667);
         // Nets are judged once: the rest of the run would take as long as all other scenes together.
         if !is_net || frame + 1 == FRAMES {
-            analyse_bounded(&mut studio.deck, &mut studio.viewer, |worker| Some(worker.finish()));
+            analyse_bounded(&mut studio, |worker| Some(worker.finish()));
         }
         each_frame(&studio);
     }
@@ -123,7 +123,7 @@ fn the_inspector_beside_a_rewound_run_matches_its_golden_picture() {
     studio.apply(StageCommand::Second(Step::Next));
     studio.apply(RunCommand::Seek(FRAMES - 20));
     studio.apply(RunCommand::ToggleInspector);
-    analyse_bounded(&mut studio.deck, &mut studio.viewer, |worker| Some(worker.finish()));
+    analyse_bounded(&mut studio, |worker| Some(worker.finish()));
     let drawn = drawn(&mut OffscreenRenderer::new(size_px, 0.4).unwrap(), size_px, &studio);
     assert_eq!(wrong("spring-inspector.png", &drawn), None);
 }

@@ -103,12 +103,15 @@ fn a_lane_that_begins_off_the_truth_is_named_by_both_widths() {
     assert_eq!(compared(right).to_string(), "looks right · 20 ms early after 20 s");
 }
 
+fn is(verdict: Verdict, shown: &str, details: &[&str]) {
+    assert_eq!(verdict.to_string(), shown);
+    assert_eq!(verdict.details(), details, "{shown}");
+}
+
+const DOUBLING: LongTerm = LongTerm { doubles_in_s: Some(90.0), ..SWINGS };
+
 #[test]
 fn a_verdict_shows_the_number_of_its_outcome_and_details_show_the_rest() {
-    let is = |verdict: Verdict, shown: &str, details: &[&str]| {
-        assert_eq!(verdict.to_string(), shown);
-        assert_eq!(verdict.details(), details, "{shown}");
-    };
     is(compared(Comparison { error: 3e-12, ..COMPARED }), "accurate · within 10⁻⁹ %", &[]);
     is(
         compared(Comparison { error: 0.004, ..COMPARED }),
@@ -161,16 +164,18 @@ fn a_verdict_shows_the_number_of_its_outcome_and_details_show_the_rest() {
             is(Verdict { long_term, ..compared(found) }, &shown, &[faded, pitch]);
         }
     }
-    let doubling = LongTerm { doubles_in_s: Some(90.0), ..SWINGS };
     is(
         Verdict {
-            long_term: LongTerm { parasite_doubles_in_s: Some(7.0), ..doubling },
+            long_term: LongTerm { parasite_doubles_in_s: Some(7.0), ..DOUBLING },
             ..compared(right)
         },
         "looks right · off by 25 % at 3 s",
         &[faded, "grows slowly: swing ×2 in 90 s", "a faint mode grows: ×2 in 7 s"],
     );
+}
 
+#[test]
+fn a_verdict_on_growth_or_decay_shows_its_time_or_its_energy() {
     let grows = Comparison { change: Trend::Grows, ..COMPARED };
     let of_energy = Comparison { energy_change: Some(0.5), ..grows };
     is(compared(grows), "grows · off by 25 %", &[]);
@@ -182,7 +187,7 @@ fn a_verdict_shows_the_number_of_its_outcome_and_details_show_the_rest() {
         (Measure::Deviation, "deviation"),
     ] {
         is(
-            Verdict { long_term: LongTerm { measure, ..doubling }, ..compared(of_energy) },
+            Verdict { long_term: LongTerm { measure, ..DOUBLING }, ..compared(of_energy) },
             &format!("grows · {name} ×2 in 90 s"),
             &[&format!("its {name} doubles in 90 s")],
         );
@@ -205,10 +210,13 @@ fn a_verdict_shows_the_number_of_its_outcome_and_details_show_the_rest() {
         let long_term = LongTerm { halves_in_s: Some(halves_in_s), ..SWINGS };
         is(Verdict { long_term, ..compared(loses) }, &format!("dies away · {shown}"), &[]);
     }
+}
 
+#[test]
+fn a_verdict_without_a_motion_or_a_truth_shows_the_reason() {
     let escaped = StepFailure::NotFinite { coordinate: "x".into(), value: f64::NAN };
     let unsolved = StepFailure::LinearSolveFailed;
-    let long_term = LongTerm { parasite_doubles_in_s: Some(7.0), ..doubling };
+    let long_term = LongTerm { parasite_doubles_in_s: Some(7.0), ..DOUBLING };
     is(Verdict { long_term, ..of(failed(&escaped)) }, "blows up · at 4 s", &[&escaped.to_string()]);
     is(
         Verdict { long_term, ..of(failed(&unsolved)) },

@@ -139,20 +139,26 @@ pub(super) struct ColumnLayout {
     pub(super) first_alone: Option<(usize, usize)>,
 }
 
+/// Returns the position of each name on both sides.
+fn places(names: &[Vec<String>; 2]) -> Result<[HashMap<&str, usize>; 2], NotComparable> {
+    let mut places: [HashMap<&str, usize>; 2] = Default::default();
+    for (side, places) in places.iter_mut().enumerate() {
+        for (i, name) in names[side].iter().enumerate() {
+            if places.insert(name, i).is_some() {
+                let (side, column) = (SIDES[side], name.clone());
+                return Err(NotComparable::Twice { side, column });
+            }
+        }
+    }
+    Ok(places)
+}
+
 impl ColumnLayout {
     pub(super) fn of(headers: [&ByteRecord; 2], chosen: &Chosen) -> Result<Self, NotComparable> {
         let names = headers.map(|header| -> Vec<String> {
             header.iter().map(|cell| String::from_utf8_lossy(cell).trim().to_owned()).collect()
         });
-        let mut places: [HashMap<&str, usize>; 2] = Default::default();
-        for (side, places) in places.iter_mut().enumerate() {
-            for (i, name) in names[side].iter().enumerate() {
-                if places.insert(name, i).is_some() {
-                    let (side, column) = (SIDES[side], name.clone());
-                    return Err(NotComparable::Twice { side, column });
-                }
-            }
-        }
+        let places = places(&names)?;
         let find = |name: &str| [0, 1].map(|side| places[side].get(name).copied());
         let absent = |side: usize, column: &str| NotComparable::NoSuchColumn {
             side: SIDES[side],

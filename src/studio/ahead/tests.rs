@@ -20,7 +20,7 @@ fn studio(scene: &str, method: &str, ticks: u64) -> Studio {
 
 /// Returns the anatomy of the next tick of the selected lane.
 fn step_of(studio: &Studio) -> Option<OneStep> {
-    one_step(&studio.deck, &studio.viewer)
+    one_step(&studio)
 }
 
 /// Returns the name of a scene that the method can step.
@@ -65,7 +65,7 @@ fn every_predicted_landing_matches_the_run_to_the_bit() {
             let mut studio = studio(scene, method.id, 5);
             let before: Vec<u64> = studio.race().lane_hashes().collect();
             let evaluations = studio.race().entrants()[0].lane.evaluations();
-            let step = one_step(&studio.deck, &studio.viewer).unwrap();
+            let step = one_step(&studio).unwrap();
             let counted = studio.deck.evaluations_of_next_tick(studio.active());
             assert_eq!(studio.race().lane_hashes().collect::<Vec<_>>(), before, "{}", method.id);
             studio.tick();
@@ -98,7 +98,7 @@ fn weights_on_a_card_lead_to_the_landing() {
 fn a_halted_body_has_no_next_step() {
     let studio = studio("stiff", "explicit-euler", 400);
     assert!(studio.race().entrants()[0].lane.halted().is_some());
-    assert_eq!(one_step(&studio.deck, &studio.viewer), None);
+    assert_eq!(one_step(&studio), None);
 }
 
 #[test]
@@ -108,7 +108,7 @@ fn rk4_loses_a_fixed_part_per_tick_and_a_32nd_of_it_in_half_ticks() {
         studio.apply(StageCommand::TickHz(5.into()));
         studio.apply(StageCommand::Restart);
         (0..ticks).for_each(|_| studio.tick());
-        let [whole, halves] = one_step(&studio.deck, &studio.viewer).unwrap().growth.unwrap();
+        let [whole, halves] = one_step(&studio).unwrap().growth.unwrap();
         // |R(iz)|² = 1 - z⁶/72 + z⁸/576 with z = 2π/5.
         let z = std::f64::consts::TAU / 5.0;
         let wanted = (1.0 - z.powi(6) / 72.0 + z.powi(8) / 576.0).sqrt() - 1.0;
@@ -124,8 +124,8 @@ fn an_undamped_orbit_has_the_energy_of_its_state_and_turns_at_zero_speed() {
     let studio = studio("spring", "rk4", 7);
     let tau = std::f64::consts::TAU;
     let size = |[q, v]: [f64; 2]| libm::hypot(q, v / tau);
-    let from = one_step(&studio.deck, &studio.viewer).unwrap().from;
-    let lines = orbit(&studio.deck, &studio.viewer, from, [-0.2, 2.0]);
+    let from = one_step(&studio).unwrap().from;
+    let lines = orbit(&studio, from, [-0.2, 2.0]);
     assert_eq!(lines.len(), 2, "above and below");
     for line in &lines {
         assert!(line.len() > 40);

@@ -1,7 +1,7 @@
 use super::*;
 use crate::loops::loop_lab::LoopWorker;
 use crate::scene::{Action, SCENES, Scene};
-use crate::{Command, RunCommand};
+use crate::{Command, RunCommand, StageCommand};
 
 #[test]
 fn the_loop_lab_refuses_a_net_with_the_reason() {

@@ -127,12 +127,7 @@ fn a_refused_path_stays_in_its_field_with_the_reason_until_edited() {
     studio.apply(ViewCommand::AskForPath);
     studio.apply(ViewCommand::TypePath("boat/none.toml".into()));
     assert_eq!(studio.apply(DriverRequest::OpenTypedPath), Some(DriverRequest::OpenTypedPath));
-    refuse_typed_path(
-        &mut studio.deck,
-        &mut studio.viewer,
-        Path::new("boat/none.toml"),
-        vec!["no such file".into()],
-    );
+    refuse_typed_path(&mut studio, Path::new("boat/none.toml"), vec!["no such file".into()]);
     assert_eq!(studio.viewer.typed_path(), "boat/none.toml");
     assert_eq!(refused(&studio), Some(vec!["no such file".into()]));
     studio.apply(ViewCommand::TypePath("boat/none.toml".into()));
@@ -146,9 +141,9 @@ fn a_refused_path_stays_in_its_field_with_the_reason_until_edited() {
 #[test]
 fn a_deleted_or_restored_file_is_reported_by_name() {
     let mut studio = studio(text("spring"));
-    file_is_gone(&mut studio.deck, &mut studio.viewer, Path::new(PATH));
+    file_is_gone(&mut studio, Path::new(PATH));
     assert!(studio.viewer.notice.as_deref().unwrap().starts_with("ship.toml is gone: "));
-    file_is_back(&mut studio.deck, &mut studio.viewer, Path::new(PATH));
+    file_is_back(&mut studio, Path::new(PATH));
     assert_eq!(studio.viewer.notice.as_deref(), Some("ship.toml is back, unchanged"));
 }
 
@@ -157,12 +152,7 @@ fn a_broken_file_shows_its_mistakes_and_keeps_the_run() {
     let mut studio = studio(text("spring"));
     (0..50).for_each(|_| studio.tick());
     let hash = studio.race().state_hash();
-    reload_failed(
-        &mut studio.deck,
-        &mut studio.viewer,
-        Path::new(PATH),
-        vec!["boat/ship.toml:1:1: no".into()],
-    );
+    reload_failed(&mut studio, Path::new(PATH), vec!["boat/ship.toml:1:1: no".into()]);
     let shown = |studio: &Studio| matches!(studio.viewer.dialog(), Some(Dialog::Mistakes { .. }));
     assert!(shown(&studio) && studio.race().state_hash() == hash);
     assert_eq!(studio.apply(ViewCommand::Escape), None);
@@ -176,12 +166,7 @@ fn a_broken_file_shows_its_mistakes_and_keeps_the_run() {
     assert!(!shown(&studio));
     // The mistakes of a file that is not open are not shown yet.
     studio.apply(StageCommand::SceneBeside(Step::Next));
-    reload_failed(
-        &mut studio.deck,
-        &mut studio.viewer,
-        Path::new(PATH),
-        vec!["boat/ship.toml:1:1: no".into()],
-    );
+    reload_failed(&mut studio, Path::new(PATH), vec!["boat/ship.toml:1:1: no".into()]);
     assert!(!shown(&studio));
 }
 
@@ -264,7 +249,7 @@ fn a_recording_at_another_tick_rate_is_compared_at_the_same_moment() {
         let (spec, compared) = (studio.selected().spec, studio.deck.compared().unwrap());
         let (_, there) = compared.body(studio.scene(), &spec, 0).unwrap();
         let body = &studio.selected().lane.bodies()[0];
-        let (here, _) = crate::shown_state(&studio.deck, &studio.viewer, body);
+        let (here, _) = crate::shown_state(&studio, body);
         (there[0] - here[0]).abs()
     };
     for tick in [1, 7, 60, 61, 150] {
@@ -289,7 +274,7 @@ fn my_spring_runs_at_the_tick_rate_of_its_dialog_and_opens_the_advice() {
     let mut studio = Studio::new(Scene::built_in("ship").unwrap());
     studio.viewer.preferences.display.measure = false;
     studio.apply(ViewCommand::AskForSpring);
-    let asked = |studio: &Studio| described_spring(&studio.deck, &studio.viewer).1;
+    let asked = |studio: &Studio| described_spring(&studio).1;
     assert_eq!(asked(&studio), studio.clock().tick_hz(), "the present one at first");
     let rate = crate::SpringField::tick_rate(asked(&studio));
     assert!(rate.is_whole && rate.value == f64::from(asked(&studio)));

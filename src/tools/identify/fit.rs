@@ -107,13 +107,7 @@ pub(super) fn fit(
         body.spring = Some(of_log.and_then(spring).or_else(|| spring(seen))?);
         other_spring = matching_spring(candidate, &body, tick_s, &seen);
     }
-    let mut start = [log.rows()[0].x, body.v0.unwrap_or(first_velocity(log, tick_s))];
-    let is_runaway = log.has_velocities()
-        && start.iter().zip(scale).all(|(start, scale)| start.abs() < NOTHING * scale);
-    let displacement = if is_runaway { DISPLACEMENT_FROM_NOTHING } else { DISPLACEMENT };
-    if is_runaway {
-        start = [0.0; 2];
-    }
+    let (start, displacement) = start_of(log, &body, tick_s);
     let iterations = match (is_spring_known, log.has_velocities()) {
         (true, true) => ITERATIONS,
         (true, false) => ITERATIONS_WITHOUT_VELOCITY,
@@ -187,12 +181,28 @@ pub(super) fn fit(
     let (start, body, now) = by_map.or_else(|| refine(&stepped))?;
     let residuals = residuals(log, &now, scale);
     let is_finite = residuals.iter().flatten().all(|r| r.is_finite());
-    let precise = match (log.is_double(), candidate.method.is_engine()) {
+    let precise = precise(log, candidate);
+    is_finite.then_some(Fit { body, start, run: now, precise, residuals })
+}
+
+/// Returns the state from which a fit starts, and the displacement for its slopes.
+fn start_of(log: &Log, body: &LoggedBody, tick_s: f64) -> ([f64; 2], f64) {
+    let start = [log.rows()[0].x, body.v0.unwrap_or(first_velocity(log, tick_s))];
+    let is_nothing =
+        start.iter().zip(log.scale()).all(|(start, scale)| start.abs() < NOTHING * scale);
+    match log.has_velocities() && is_nothing {
+        true => ([0.0; 2], DISPLACEMENT_FROM_NOTHING),
+        false => (start, DISPLACEMENT),
+    }
+}
+
+/// Returns the residual, in units of the log, up to which a run is the logged one.
+fn precise(log: &Log, candidate: Candidate) -> f64 {
+    match (log.is_double(), candidate.method.is_engine()) {
         (false, _) => PRECISE_IN_SINGLE,
         (true, true) => PRECISE_OF_ENGINE,
         (true, false) => PRECISE_IN_DOUBLE,
-    };
-    is_finite.then_some(Fit { body, start, run: now, precise, residuals })
+    }
 }
 
 /// Number of parameters, which are coordinate and velocity at the start, stiffness, damping and rest.

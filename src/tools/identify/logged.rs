@@ -2,6 +2,8 @@
 
 mod columns;
 
+use std::io::BufRead;
+
 use csv::ByteRecord;
 
 use columns::{Columns, OF_X, TimeColumn};
@@ -220,6 +222,47 @@ impl Rows {
         self.since.push(since);
         Ok(false)
     }
+
+    /// Returns the log of these rows, or its fault with a line. `twice` says that nearly each time has two rows.
+    fn into_log(
+        self,
+        columns: &Columns,
+        mut taken: Taken,
+        twice: bool,
+    ) -> Result<Log, (u64, Fault)> {
+        let Rows { tick_hz, mut rows, all, since: ticks, off, repeated, .. } = self;
+        taken.notes.extend(note_of_repeated(&repeated, twice));
+        let is_uneven = off.is_some();
+        if is_uneven {
+            taken.notes.extend(other_rate(&ticks, tick_hz).map(|rate| {
+                let rate = significant(rate, 4);
+                format!("there are {rate} rows a second: give the rate with --tick-hz to find the method")
+            }));
+            (0..).zip(&mut rows).for_each(|(number, row)| row.tick = number);
+        }
+        let has_velocities = columns.v.is_some();
+        let least = if has_velocities { Log::MIN_ROWS } else { Log::MIN_ROWS_WITHOUT_VELOCITY };
+        if rows.len() < least {
+            let what =
+                format!("a log of {} rows says too little; log at least {least}", rows.len());
+            return Err((1, what.into()));
+        }
+        if rows.iter().all(|row| row.x == rows[0].x && row.v.unwrap_or(0.0) == 0.0) {
+            return Err((2, "nothing moves; log a motion".to_owned().into()));
+        }
+        // A frame that came late skips ticks of the clock, but none of the motion.
+        let gaps = rows.windows(2).filter(|pair| pair[1].tick > pair[0].tick + 1).count();
+        let is_late =
+            taken.unit.is_some() && gaps > 0 && gaps as f64 <= MOST_LATE * rows.len() as f64;
+        let has_other_times = is_uneven || is_late || !twice && !repeated.is_empty();
+        let steps: Vec<f64> = ticks.windows(2).map(|pair| pair[1] - pair[0]).collect();
+        let is_of_rate = median(&steps).is_some_and(|step| (step - 1.0).abs() <= OFF_RATE);
+        let is_stepped = has_other_times && is_of_rate && all.len() >= least;
+        let stepped = is_stepped.then(|| as_even(&all, &repeated, tick_hz, taken.rows[0]));
+        let scale = scale_of(&rows);
+        let names = columns.read_names(&taken);
+        Ok(Log { rows, columns: names, taken, tick_hz, stepped, scale, is_uneven })
+    }
 }
 
 impl Log {
@@ -279,16 +322,6 @@ impl Log {
         };
         let mut table = begin()?;
         let header_line = table.header_line();
-        let survey = |time: usize, table: &mut TableReader<_>| {
-            let (mut course, mut row) = (Course::default(), ByteRecord::new());
-            while course.count < SURVEYED
-                && let Ok(Some(_)) = table.next(&mut row)
-            {
-                let cell = row.get(time).unwrap_or_default();
-                Moment::read(cell, Decimal::PointOrComma).into_iter().for_each(|it| course.add(it));
-            }
-            course
-        };
         let is_headless = table.is_headless();
         let first = if is_headless { survey(0, &mut begin()?) } else { Course::default() };
         let found = Columns::find(table.header(), is_headless, (table.decimal(), &first), options);
@@ -304,45 +337,27 @@ impl Log {
         let unit = unit.filter(|(unit, _)| *unit != Unit::Ticks);
         let per_second = unit.map_or(1.0, |(unit, _)| 1e9 / unit.ns());
         let found_hz = || {
-            let has_times = unit.is_some();
             let missing = Fault {
                 mistaken: Some(LogSetting::MissingTickRate),
                 what: "there is no column of times, so that the rows are ticks of a rate".into(),
             };
-            has_times
-                .then(|| columns.rate(&course, per_second))
-                .flatten()
-                .ok_or_else(|| at(header_line)(missing))
+            let rate = unit.and_then(|_| columns.rate(&course, per_second));
+            rate.ok_or_else(|| at(header_line)(missing))
         };
         let tick_hz = tick_hz.map_or_else(found_hz, Ok)?;
         if let (Some(time), Some((unit, _))) = (columns.time.column(), unit) {
             table.limit_by(time, unit);
         }
-        let header = table.header().clone();
         // The error that names the bodies of a log, if a column tells them apart.
         let several_bodies = |found: &str, pair: &[ByteRecord; 2]| {
-            let of = columns.of_bodies(pair)?;
-            let name = String::from_utf8_lossy(&header[of]).trim().to_owned();
-            let (mut bodies, mut table) = (Vec::<(String, String)>::new(), begin().ok()?);
-            let mut record = ByteRecord::new();
-            while let Ok(Some(_)) = table.next(&mut record) {
-                let cell = String::from_utf8_lossy(record.get(of).unwrap_or_default());
-                let body = (name.clone(), cell.trim().to_owned());
-                if !bodies.contains(&body) {
-                    bodies.push(body);
-                }
-                if bodies.len() > MAX_BODIES {
-                    return None;
-                }
-            }
-            let cell = bodies.first().map(|(_, cell)| clip(cell))?;
-            let what = format!("{found}; --where {}={cell} takes one", clip(&name));
+            let bodies = bodies_in(begin().ok()?, columns.of_bodies(pair)?)?;
+            let (name, cell) = bodies.first()?;
+            let what = format!("{found}; --where {}={} takes one", clip(name), clip(cell));
             let fault = Fault { mistaken: Some(LogSetting::Filter), what };
             Some(LogError { bodies, ..at(header_line)(fault) })
         };
         let mut read = Rows { tick_hz, per_second, ..Rows::default() };
-        let mut record = ByteRecord::new();
-        let mut last = 0;
+        let (mut record, mut last) = (ByteRecord::new(), 0);
         while let Some(line) = table.next(&mut record).map_err(broken)? {
             let row = table.taken().0[1];
             match read.add(&columns, &record, (line, row)) {
@@ -358,10 +373,9 @@ impl Log {
             }
         }
         let of = table.count_rest();
-        let Rows { rows, all, since: ticks, off, repeated, pair, .. } = read;
-        let twice = repeated.len() as f64 > ALL_TWICE * all.len() as f64;
-        if let (true, Some(pair)) = (twice, pair)
-            && let Some(error) = several_bodies("two rows at each time", &pair)
+        let twice = read.repeated.len() as f64 > ALL_TWICE * read.all.len() as f64;
+        if let (true, Some(pair)) = (twice, &read.pair)
+            && let Some(error) = several_bodies("two rows at each time", pair)
         {
             return Err(error);
         }
@@ -374,69 +388,7 @@ impl Log {
                 Self::MAX_TICKS
             ));
         }
-        match (&repeated[..], twice) {
-            ([], _) => {}
-            (_, true) => {
-                taken.notes.push("two rows at each time; the first of each is taken".into())
-            }
-            ([(row, t_s)], _) => taken.notes.push(format!(
-                "rows {} and {row} are both at {} s; the first is taken",
-                row - 1,
-                significant(*t_s, 4)
-            )),
-            (several, _) => taken.notes.push(format!(
-                "{} rows have the time of the row before, and are left out",
-                several.len()
-            )),
-        }
-        let mut rows = rows;
-        let is_uneven = off.is_some();
-        if is_uneven {
-            taken.notes.extend(other_rate(&ticks, tick_hz).map(|rate| {
-                let rate = significant(rate, 4);
-                format!("there are {rate} rows a second: give the rate with --tick-hz to find the method")
-            }));
-            (0..).zip(&mut rows).for_each(|(number, row)| row.tick = number);
-        }
-        let has_velocities = columns.v.is_some();
-        let least = if has_velocities { Self::MIN_ROWS } else { Self::MIN_ROWS_WITHOUT_VELOCITY };
-        if rows.len() < least {
-            let what =
-                format!("a log of {} rows says too little; log at least {least}", rows.len());
-            return Err(at(1)(what.into()));
-        }
-        if rows.iter().all(|row| row.x == rows[0].x && row.v.unwrap_or(0.0) == 0.0) {
-            return Err(at(2)("nothing moves; log a motion".to_owned().into()));
-        }
-        // A frame that came late skips ticks of the clock, but none of the motion.
-        let gaps = rows.windows(2).filter(|pair| pair[1].tick > pair[0].tick + 1).count();
-        let is_late = unit.is_some() && gaps > 0 && gaps as f64 <= MOST_LATE * rows.len() as f64;
-        let has_other_times = is_uneven || is_late || !twice && !repeated.is_empty();
-        let steps: Vec<f64> = ticks.windows(2).map(|pair| pair[1] - pair[0]).collect();
-        let is_of_rate = median(&steps).is_some_and(|step| (step - 1.0).abs() <= OFF_RATE);
-        let stepped = (has_other_times && is_of_rate && all.len() >= least).then(|| {
-            let late = all
-                .windows(2)
-                .zip(1..)
-                .find(|(pair, _)| (pair[1].t_s - pair[0].t_s) * tick_hz > 1.5);
-            let late = late.map(|(pair, row)| {
-                let ms = significant(1e3 * (pair[1].t_s - pair[0].t_s - 1.0 / tick_hz), 3);
-                format!("row {} is {ms} ms late", taken.rows[0] + row)
-            });
-            let same = repeated.first().filter(|_| late.is_none());
-            let same = same.map(|(row, t_s)| {
-                format!("rows {} and {row} are both at {} s", row - 1, significant(*t_s, 4))
-            });
-            let even = (0..).zip(&all).map(|(tick, row)| LogRow {
-                tick,
-                t_s: tick as f64 / tick_hz,
-                ..*row
-            });
-            (even.collect(), late.or(same))
-        });
-        let scale = scale_of(&rows);
-        let names = columns.read_names(&taken);
-        Ok(Log { rows, columns: names, taken, tick_hz, stepped, scale, is_uneven })
+        read.into_log(&columns, taken, twice).map_err(|(line, fault)| at(line)(fault))
     }
 
     /// Returns the log with its rows as ticks, whatever their times, and what is wrong with the times. `None` if the
@@ -523,6 +475,74 @@ impl Log {
     pub fn rows(&self) -> &[LogRow] {
         &self.rows
     }
+}
+
+/// Returns the cells of the column that names the bodies, each with the column's name; `None` if there are too many.
+fn bodies_in<R: BufRead>(mut table: TableReader<R>, of: usize) -> Option<Vec<(String, String)>> {
+    let name = String::from_utf8_lossy(&table.header()[of]).trim().to_owned();
+    let (mut bodies, mut record) = (Vec::<(String, String)>::new(), ByteRecord::new());
+    while let Ok(Some(_)) = table.next(&mut record) {
+        let cell = String::from_utf8_lossy(record.get(of).unwrap_or_default());
+        let body = (name.clone(), cell.trim().to_owned());
+        if !bodies.contains(&body) {
+            bodies.push(body);
+        }
+        if bodies.len() > MAX_BODIES {
+            return None;
+        }
+    }
+    Some(bodies)
+}
+
+/// Returns the note on rows with the time of the row before, which are given with their times (s). `twice` says
+/// that nearly each time has two rows.
+fn note_of_repeated(repeated: &[(u64, f64)], twice: bool) -> Option<String> {
+    Some(match (repeated, twice) {
+        ([], _) => return None,
+        (_, true) => "two rows at each time; the first of each is taken".into(),
+        ([(row, t_s)], _) => format!(
+            "rows {} and {row} are both at {} s; the first is taken",
+            row - 1,
+            significant(*t_s, 4)
+        ),
+        (several, _) => {
+            format!("{} rows have the time of the row before, and are left out", several.len())
+        }
+    })
+}
+
+/// Returns the course of the times in a column.
+fn survey<R: BufRead>(time: usize, table: &mut TableReader<R>) -> Course {
+    let (mut course, mut row) = (Course::default(), ByteRecord::new());
+    while course.count < SURVEYED
+        && let Ok(Some(_)) = table.next(&mut row)
+    {
+        let cell = row.get(time).unwrap_or_default();
+        Moment::read(cell, Decimal::PointOrComma).into_iter().for_each(|it| course.add(it));
+    }
+    course
+}
+
+/// Returns all rows at even ticks whatever their times, and the first row that is late or has the time of another.
+fn as_even(
+    all: &[LogRow],
+    repeated: &[(u64, f64)],
+    tick_hz: f64,
+    first_row: u64,
+) -> (Vec<LogRow>, Option<String>) {
+    let late =
+        all.windows(2).zip(1..).find(|(pair, _)| (pair[1].t_s - pair[0].t_s) * tick_hz > 1.5);
+    let late = late.map(|(pair, row)| {
+        let ms = significant(1e3 * (pair[1].t_s - pair[0].t_s - 1.0 / tick_hz), 3);
+        format!("row {} is {ms} ms late", first_row + row)
+    });
+    let same = repeated.first().filter(|_| late.is_none());
+    let same = same.map(|(row, t_s)| {
+        format!("rows {} and {row} are both at {} s", row - 1, significant(*t_s, 4))
+    });
+    let even =
+        (0..).zip(all).map(|(tick, row)| LogRow { tick, t_s: tick as f64 / tick_hz, ..*row });
+    (even.collect(), late.or(same))
 }
 
 /// A body on a line with a spring, drag and a constant push, any of which may be 0. By default, the body has only an

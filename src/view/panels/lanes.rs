@@ -71,8 +71,7 @@ fn table(studio: &Studio) -> Table<Row<'_>> {
 fn groups(studio: &Studio) -> Vec<Vec<Row<'_>>> {
     let truth = studio.race().truth().bodies().iter().enumerate();
     let exact = |(body, truth): (usize, &LaneBody)| {
-        let (q, _) =
-            truth.halted().is_none().then(|| shown_truth(&studio.deck, &studio.viewer, body))?;
+        let (q, _) = truth.halted().is_none().then(|| shown_truth(studio, body))?;
         q.first().copied()
     };
     let exact: Vec<Option<f64>> = truth.map(exact).collect();
@@ -90,7 +89,7 @@ fn groups(studio: &Studio) -> Vec<Vec<Row<'_>>> {
 /// Shows the context menu of a row. The menu copies a spring's settings for its engine, or the method as code in each
 /// language.
 pub(super) fn menu(ui: &mut Ui, studio: &Studio, entry: MenuIndex, commands: &mut Vec<Command>) {
-    let has_joint = joint_code(&studio.deck, &studio.viewer, entry).is_some();
+    let has_joint = joint_code(studio, entry).is_some();
     if has_joint && ui.button("Copy the spring's settings (Ctrl C)").clicked() {
         commands.push(Command::Ask(DriverRequest::CopyJoint(entry)));
         ui.close();

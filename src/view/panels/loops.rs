@@ -51,12 +51,12 @@ fn show_lab(ui: &mut Ui, loops: &LoopLab, room: Vec2, commands: &mut Vec<Command
     let header = |ui: &mut Ui| {
         if has_menus {
             for (name, is_it) in [("Moments shown", false), ("Game time", true)] {
-                if ui.selectable_label(loops.shows_game_time() == is_it, name).clicked() {
+                if ui.selectable_label(loops.shows_game_time == is_it, name).clicked() {
                     commands.push(Command::Loop(LoopCommand::ShowGameTime(is_it)));
                 }
             }
         } else {
-            let title = if loops.shows_game_time() { "Game time" } else { "Moments shown" };
+            let title = if loops.shows_game_time { "Game time" } else { "Moments shown" };
             ui.label(RichText::new(title).font(strong_font(15.0)).color(palette(ui).text));
         }
         if !controls::has_trace_menu_above(ui) {
@@ -77,12 +77,12 @@ fn show_lab(ui: &mut Ui, loops: &LoopLab, room: Vec2, commands: &mut Vec<Command
         return;
     }
     let has_hitch = lanes.iter().any(|lane| lane.lane.game_time().has_long());
-    if loops.shows_game_time() && !has_hitch {
+    if loops.shows_game_time && !has_hitch {
         ui.label(RichText::new(NO_HITCH).color(palette(ui).dim));
     }
     let height = (top + room.y - ui.cursor().top()).max(60.0);
     let (room, response) = ui.allocate_exact_size(vec2(room.x, height), Sense::hover());
-    if loops.shows_game_time() {
+    if loops.shows_game_time {
         response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, GAME_TIME));
         return chart::paint(ui.painter(), &game_time(&lanes, room, palette(ui)));
     }
@@ -105,7 +105,7 @@ pub(super) fn layout(
         return Some((live::TITLE, Vec::new(), live::layout(studio, room, palette)?));
     };
     let lanes = on_stage(loops, palette);
-    if loops.shows_game_time() {
+    if loops.shows_game_time {
         let entries = legend_entries(loops, &lanes, palette);
         return Some((GAME_TIME, entries, game_time(&lanes, room, palette)));
     }

@@ -172,29 +172,35 @@ pub(super) fn show(ui: &mut Ui, studio: &Studio) -> (Vec<Command>, Rect) {
         help::show(ui, studio.viewer.preferences.is_page, &mut commands);
     }
     if let Some(dialog) = studio.viewer.dialog() {
-        // Keeps a dialog off the instruments, because it would cut through their letters.
-        let is_wide = stage.width() >= breakpoints::DIALOG_ON_STAGE;
-        let along = if is_wide { stage } else { whole };
-        let over = Rect::from_x_y_ranges(along.x_range(), whole.y_range());
-        match dialog {
-            Dialog::Spring { tick_hz } => {
-                my_spring::show(ui, studio, *tick_hz, over, &mut commands)
-            }
-            Dialog::Lines(read) => my_lines::show(ui, studio, read, over, &mut commands),
-            Dialog::Figures => figures::show(ui, over, &mut commands),
-            Dialog::Path { refused, .. } => {
-                opening::path(ui, studio, refused.as_deref(), over, &mut commands)
-            }
-            Dialog::Mistakes { file, report } => {
-                opening::mistakes(ui, file, report, over, &mut commands)
-            }
-        }
-        if ui.input(|input| input.key_pressed(Key::Escape)) {
-            commands.push(Command::View(ViewCommand::CloseDialog));
-        }
+        show_dialog(ui, studio, dialog, [stage, whole], &mut commands);
     }
     focus::show(ui);
     (commands, stage)
+}
+
+fn show_dialog(
+    ui: &mut Ui,
+    studio: &Studio,
+    dialog: &Dialog,
+    [stage, whole]: [Rect; 2],
+    commands: &mut Vec<Command>,
+) {
+    // Keeps a dialog off the instruments, because it would cut through their letters.
+    let is_wide = stage.width() >= breakpoints::DIALOG_ON_STAGE;
+    let along = if is_wide { stage } else { whole };
+    let over = Rect::from_x_y_ranges(along.x_range(), whole.y_range());
+    match dialog {
+        Dialog::Spring { tick_hz } => my_spring::show(ui, studio, *tick_hz, over, commands),
+        Dialog::Lines(read) => my_lines::show(ui, studio, read, over, commands),
+        Dialog::Figures => figures::show(ui, over, commands),
+        Dialog::Path { refused, .. } => {
+            opening::path(ui, studio, refused.as_deref(), over, commands)
+        }
+        Dialog::Mistakes { file, report } => opening::mistakes(ui, file, report, over, commands),
+    }
+    if ui.input(|input| input.key_pressed(Key::Escape)) {
+        commands.push(Command::View(ViewCommand::CloseDialog));
+    }
 }
 
 /// Takes the room of a panel for a later [`within`], and returns it.

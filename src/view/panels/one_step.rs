@@ -16,7 +16,7 @@ use crate::run::Unit;
 use crate::stage::Coordinate;
 use crate::stage::number::{round, significant};
 use crate::studio::{Studio, one_step, orbit};
-use crate::theme::{TYPE, colour, palette, strong_font};
+use crate::theme::{PanelPalette, TYPE, colour, palette, strong_font};
 
 mod loupe;
 
@@ -50,7 +50,7 @@ const MAX_DRAWN: usize = 12;
 const MARGIN: f64 = 0.16;
 
 pub(super) fn show(ui: &mut Ui, studio: &Studio, room: Vec2) {
-    let Some(step) = one_step(&studio.deck, &studio.viewer) else {
+    let Some(step) = one_step(studio) else {
         let why = "No next step: the body has halted under this method.";
         ui.label(RichText::new(why).color(palette(ui).dim));
         return;
@@ -151,9 +151,8 @@ fn plot(ui: &mut Ui, studio: &Studio, step: &OneStep, size: Vec2) {
     // The curves are the states that have the same energy as the present state, and as the landing.
     let mut curves = Vec::new();
     for (through, colour) in [(Some(step.from), palette.exact), (step.landing, own)] {
-        let lines = through
-            .map(|through| orbit(&studio.deck, &studio.viewer, through, area.bounds[0]))
-            .unwrap_or_default();
+        let lines =
+            through.map(|through| orbit(studio, through, area.bounds[0])).unwrap_or_default();
         let style = LineStyle::solid(colour.gamma_multiply(ORBIT), 1.0);
         let thin = LineStyle { dash: [6.0, 4.0], ..style };
         curves.extend(lines.into_iter().map(|line| Curve::new(thin, line)));
@@ -197,6 +196,22 @@ fn plot(ui: &mut Ui, studio: &Studio, step: &OneStep, size: Vec2) {
         painter.line_segment([area.at(slope.at), at], Stroke::new(1.0, *colour));
         badge(&painter, at, *number, [*colour, palette.background]);
     }
+    let named = name_points(&painter, step, &area, &taken, (palette, own));
+    let states = evaluations.iter().map(|(_, _, slope)| area.at(slope.at));
+    let taken: Vec<Pos2> = taken.into_iter().chain(named).chain(states).collect();
+    loupe::show(&painter, &area, step, &taken, (palette, own));
+    let about = format!("one step of {}", step.spec.method.name);
+    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, &about));
+}
+
+/// Names the state and the landings beside the places that are taken. Returns the places of the names.
+fn name_points(
+    painter: &egui::Painter,
+    step: &OneStep,
+    area: &PlotArea,
+    taken: &[Pos2],
+    (palette, own): (&PanelPalette, Color32),
+) -> Vec<Pos2> {
     let mut named: Vec<(Pos2, f32)> = Vec::new();
     let words = [
         (Some(step.from), "state", palette.text),
@@ -216,7 +231,7 @@ fn plot(ui: &mut Ui, studio: &Studio, step: &OneStep, size: Vec2) {
             vec2(-beside, 0.0),
         ];
         let places = offsets.map(|offset| {
-            let inner = rect.shrink2(vec2(half + 4.0, 9.0));
+            let inner = area.rect.shrink2(vec2(half + 4.0, 9.0));
             if inner.is_positive() { inner.clamp(point + offset) } else { point + offset }
         });
         let is_free = |at: &&Pos2| {
@@ -230,15 +245,10 @@ fn plot(ui: &mut Ui, studio: &Studio, step: &OneStep, size: Vec2) {
         };
         // The colour has to suffice if there is no room for a label.
         let Some(&at) = places.iter().find(is_free) else { continue };
-        label(&painter, (at, 0.0), text, [colour, palette.plot]);
+        label(painter, (at, 0.0), text, [colour, palette.plot]);
         named.push((at, half));
     }
-    let states = evaluations.iter().map(|(_, _, slope)| area.at(slope.at));
-    let taken: Vec<Pos2> =
-        taken.into_iter().chain(named.into_iter().map(|(at, _)| at)).chain(states).collect();
-    loupe::show(&painter, &area, step, &taken, (palette, own));
-    let about = format!("one step of {}", step.spec.method.name);
-    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, &about));
+    named.into_iter().map(|(at, _)| at).collect()
 }
 
 /// Draws the weighted slopes head to tail. If the landing is not the sum of the slopes, draws one arrow to the landing.

@@ -143,12 +143,7 @@ mod tests {
         let message = |words: usize| format!("a.toml:1:1: {}", "words ".repeat(words));
         let shown = |report: ShownError| {
             let mut studio = Studio::new(Scene::built_in("spring").unwrap());
-            show_mistakes(
-                &mut studio.deck,
-                &mut studio.viewer,
-                std::path::Path::new("a.toml"),
-                vec![report],
-            );
+            show_mistakes(&mut studio, std::path::Path::new("a.toml"), vec![report]);
             size_of_dialog(&studio, "a.toml cannot be opened")
         };
         let [short, long] = [8, 80].map(|words| shown(message(words).into()));
@@ -182,8 +177,7 @@ mod tests {
         studio.apply(ViewCommand::AskForPath);
         let before = size_of_dialog(&studio, "Open a scene or a frame log");
         refuse_typed_path(
-            &mut studio.deck,
-            &mut studio.viewer,
+            &mut studio,
             std::path::Path::new("a.toml"),
             vec!["error: none ".repeat(40).into()],
         );

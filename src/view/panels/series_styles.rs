@@ -67,7 +67,7 @@ impl SeriesStyles {
                 _ => truth.truth_in_words(),
             },
             exact_colour: palette.exact,
-            now_s: shown_s(&studio.deck, &studio.viewer),
+            now_s: shown_s(studio),
             length_s: studio.scene().seconds,
         }
     }

@@ -50,7 +50,7 @@ const KEY_LINE: f32 = 32.0;
 
 pub(super) fn show(ui: &mut Ui, studio: &Studio, room: Vec2, commands: &mut Vec<Command>) {
     let top = ui.cursor().top();
-    let Some(index) = mapped_parameter(&studio.deck, &studio.viewer) else {
+    let Some(index) = mapped_parameter(studio) else {
         ui.label(
             RichText::new("This body has no parameter that a map could show.")
                 .color(palette(ui).dim),
@@ -99,7 +99,7 @@ fn head(ui: &mut Ui, studio: &Studio, index: usize, commands: &mut Vec<Command>)
         }
         let menu = ComboBox::from_id_salt("mapped parameter").selected_text(name(index));
         let menu = menu.show_ui(ui, |ui| {
-            for other in mappable_parameters(&studio.deck, &studio.viewer) {
+            for other in mappable_parameters(studio) {
                 if ui.selectable_label(other == index, name(other)).clicked() {
                     commands.push(Command::Run(RunCommand::MapParameter(other)));
                 }

@@ -63,7 +63,12 @@ pub(super) fn show(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) {
     let span = visible_span(ui, studio, &times, &response, along);
     let track = TimelineView { groove, span, times: &times, palette: palette(ui) };
 
-    seek(ui, studio, &response, &track, commands);
+    let present = studio.race().tick();
+    let now = (studio.race().t(), format!("timeline, at tick {present}"));
+    groove.seek(ui, &response, now, commands, |x| {
+        let tick = track.tick(x);
+        (studio.running() || tick != present).then_some(Command::Run(RunCommand::Seek(tick)))
+    });
     let context = Context {
         events: &events,
         scene: studio.scene(),
@@ -87,7 +92,7 @@ pub(super) fn show(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) {
     write_failed_check(&painter, studio, &track);
     groups.iter().for_each(|group| draw_group(&painter, &track, group));
     // The handle is at the same moment as the stage and the plots.
-    let shown_s = shown_s(&studio.deck, &studio.viewer);
+    let shown_s = shown_s(studio);
     let present = span.x(shown_s, along);
     if along.expand(1.0).contains(present) {
         groove.handle(&painter, present, response.has_focus(), track.palette);
@@ -144,6 +149,21 @@ impl Groove {
     pub(super) fn interact(&self, ui: &Ui) -> Response {
         let grab = Rect::from_x_y_ranges(self.along.expand(MARGIN / 2.0), self.room.y_range());
         ui.interact(grab, ui.scope_id().with("track"), Sense::click_and_drag())
+    }
+
+    /// Gives the command of `seek` for the pressed place. While the track has the focus, the arrow keys step by ticks
+    /// or frames. The name of the present moment (s) is for screen readers.
+    pub(super) fn seek(
+        &self,
+        ui: &Ui,
+        response: &Response,
+        (now_s, name): (f64, String),
+        commands: &mut Vec<Command>,
+        seek: impl FnOnce(f32) -> Option<Command>,
+    ) {
+        response.widget_info(|| egui::WidgetInfo::slider(true, now_s, &name));
+        commands.extend(pressed(ui, response, self.along).and_then(seek));
+        step(ui, response, commands);
     }
 
     /// Returns the rectangle of the track between two places, as far as it is visible.
@@ -248,28 +268,8 @@ fn visible_span(
     span
 }
 
-/// Seeks to the pressed tick. While the track has the focus, the arrow keys step by ticks.
-fn seek(
-    ui: &Ui,
-    studio: &Studio,
-    response: &Response,
-    track: &TimelineView<'_>,
-    commands: &mut Vec<Command>,
-) {
-    let present = studio.race().tick();
-    let name = format!("timeline, at tick {present}");
-    response.widget_info(|| egui::WidgetInfo::slider(true, studio.race().t(), &name));
-    if let Some(x) = pressed(ui, response, track.groove.along) {
-        let tick = track.tick(x);
-        if studio.running() || tick != present {
-            commands.push(Command::Run(RunCommand::Seek(tick)));
-        }
-    }
-    step(ui, response, commands);
-}
-
 /// Returns the place at which a track is pressed.
-pub(super) fn pressed(ui: &Ui, response: &Response, along: Rangef) -> Option<f32> {
+fn pressed(ui: &Ui, response: &Response, along: Rangef) -> Option<f32> {
     // A press that ends before the next frame shows only as a release. A release without new input does not seek,
     // because a key in the same frame may already have moved the present.
     let is_new = ui.input(|i| i.pointer.any_pressed() || i.pointer.delta() != Vec2::ZERO);
@@ -282,7 +282,7 @@ pub(super) fn pressed(ui: &Ui, response: &Response, along: Rangef) -> Option<f32
 }
 
 /// Steps back and forth by the arrow keys while the track has the focus.
-pub(super) fn step(ui: &Ui, response: &Response, commands: &mut Vec<Command>) {
+fn step(ui: &Ui, response: &Response, commands: &mut Vec<Command>) {
     if response.has_focus() {
         let filter = EventFilter { horizontal_arrows: true, ..EventFilter::default() };
         ui.memory_mut(|memory| memory.set_focus_lock_filter(response.id, filter));

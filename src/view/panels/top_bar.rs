@@ -56,11 +56,11 @@ pub(super) fn show(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) {
                     if width >= breakpoints::MENUS {
                         inspector_button(ui, studio, commands);
                     }
-                    let t = shown_s(&studio.deck, &studio.viewer);
+                    let t = shown_s(studio);
                     match is_wide {
                         true => {
-                            let tick = shown_tick(&studio.deck, &studio.viewer);
-                            let slowed = slowed_in_words(&studio.deck, &studio.viewer);
+                            let tick = shown_tick(studio);
+                            let slowed = slowed_in_words(studio);
                             let slowed = slowed.map(|words| format!(" · {words}"));
                             format!("t = {t:.3} s · tick {tick}{}", slowed.unwrap_or_default())
                         }

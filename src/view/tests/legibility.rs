@@ -185,7 +185,7 @@ fn every_text_of_every_scene_is_legible_alone_and_racing() {
         // Keeps the verdicts of the race, because those of a net take seconds.
         studio.apply(StageCommand::ToggleRace);
         move_on(&mut studio);
-        if unanswered_request(&studio.deck, &studio.viewer).is_some() {
+        if unanswered_request(&studio).is_some() {
             assert!(!studio.scene().script.is_empty(), "a kick of the script begins a verdict");
             studio.analyse();
         }

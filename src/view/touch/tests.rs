@@ -338,7 +338,7 @@ fn a_press_where_the_mass_was_up_to_a_fifth_of_a_second_ago_takes_it() {
                 run_frame(&mut table, events);
             }
             let body = &table.studio.race().entrants()[0].lane.bodies()[0];
-            let q = shown_state(&table.studio.deck, &table.studio.viewer, body).0;
+            let q = shown_state(&table.studio, body).0;
             let view = table.studio.view().clone();
             table.press(aimed);
             let is_far = table.body().distance(aimed) > 80.0;

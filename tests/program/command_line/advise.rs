@@ -92,7 +92,7 @@ fn is_said_by_library_and_window(recommended: &Value, name: &str) {
     let mut studio = Studio::new(scene);
     studio.apply(StageCommand::Instrument(Instrument::Advice));
     let findings = AnalysisWorker::new(studio.analysis_request()).finish();
-    accept_findings(&mut studio.deck, &mut studio.viewer, findings);
+    accept_findings(&mut studio, findings);
     let advised = &studio.viewer.advice().expect("it is found").advised;
     for (i, criterion) in CRITERIA.iter().enumerate() {
         let MethodAdvice { spec, met, .. } = &advised[taken(advised, i).expect("one meets it")];

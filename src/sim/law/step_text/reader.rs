@@ -8,7 +8,7 @@ pub(super) use spin::SPIN_NAMES;
 
 use super::method::{Array, Function as OwnFunction, Machine, Taken};
 use super::paths::{SMOOTH_DAMP, damped_velocity};
-use super::statements::Statement;
+use super::statements::{Declares, Statement};
 use super::{BUILT_IN, Carried, H, Line, OTHER_NAMES, STEP_NAMES, StepText, TARGET, V, X};
 use crate::law::expression::{Expression, Node, Scope, parse, parse_condition};
 use crate::law::fault::{ExpressionFault, Parsed, Part, Remedy, fault, quoted};
@@ -346,26 +346,7 @@ impl<'t> Reader<'t> {
                 Ok(())
             }
             Statement::Assign { name, joins, value, declares } => {
-                // A game declares the initial value of `x` or `v` above the lines of its frames.
-                let index = self.index(&self.text[name.clone()]);
-                let index = index.filter(|index| *index <= V && !self.is_function);
-                let is_first = index.is_some_and(|index| self.values[index].is_none());
-                let start = match declares.is_some() && is_first && self.blocks.is_empty() {
-                    true => self
-                        .constant_value(&self.expression(value.clone(), false)?, value.clone())
-                        .ok(),
-                    false => None,
-                };
-                match (index.zip(start), damped_velocity(self.text, &value)) {
-                    (Some((index, start)), _) => self.starts[index] = start,
-                    (None, Some(velocity)) => self.assign_damped(name, joins, value, velocity)?,
-                    (None, None) => {
-                        let expression = self.expression(value.clone(), false)?;
-                        let index = self.index(&self.text[name.clone()]).unwrap_or(X);
-                        self.assign(index, name, (joins, declares), expression, value)?;
-                    }
-                }
-                Ok(())
+                self.read_assignment(name, (joins, declares), value)
             }
             Statement::Memory { name, value } => {
                 // A memory may start as NaN, which equals no step length, so that the lines can recognise the first
@@ -436,6 +417,34 @@ impl<'t> Reader<'t> {
                 }
             },
         }
+    }
+
+    fn read_assignment(
+        &mut self,
+        name: Range<usize>,
+        joins: (&'static str, Option<Declares>),
+        value: Range<usize>,
+    ) -> Parsed<()> {
+        // A game declares the initial value of `x` or `v` above the lines of its frames.
+        let index = self.index(&self.text[name.clone()]);
+        let index = index.filter(|index| *index <= V && !self.is_function);
+        let is_first = index.is_some_and(|index| self.values[index].is_none());
+        let start = match joins.1.is_some() && is_first && self.blocks.is_empty() {
+            true => {
+                self.constant_value(&self.expression(value.clone(), false)?, value.clone()).ok()
+            }
+            false => None,
+        };
+        match (index.zip(start), damped_velocity(self.text, &value)) {
+            (Some((index, start)), _) => self.starts[index] = start,
+            (None, Some(velocity)) => self.assign_damped(name, joins.0, value, velocity)?,
+            (None, None) => {
+                let expression = self.expression(value.clone(), false)?;
+                let index = self.index(&self.text[name.clone()]).unwrap_or(X);
+                self.assign(index, name, joins, expression, value)?;
+            }
+        }
+        Ok(())
     }
 
     /// Reads an expression or a condition.

@@ -51,7 +51,7 @@ fn no_row_of_the_table_covers_the_inspector() {
 fn decide(studio: &mut Studio, worker: &mut AnalysisWorker) {
     while studio.viewer.advice().is_none_or(|advice| !advice.is_decided) {
         worker.work();
-        accept_findings(&mut studio.deck, &mut studio.viewer, worker.findings());
+        accept_findings(studio, worker.findings());
     }
 }
 
@@ -59,7 +59,7 @@ fn decide(studio: &mut Studio, worker: &mut AnalysisWorker) {
 fn judge(studio: &mut Studio, worker: &mut AnalysisWorker, count: usize) {
     while studio.viewer.advice().is_none_or(|advice| advice.advised.len() < count) {
         worker.work();
-        accept_findings(&mut studio.deck, &mut studio.viewer, worker.findings());
+        accept_findings(studio, worker.findings());
     }
 }
 
@@ -147,7 +147,7 @@ fn no_method_is_named_or_copied_before_the_search_has_ended() {
         for _ in 0..30 {
             worker.work();
         }
-        accept_findings(&mut studio.deck, &mut studio.viewer, worker.findings());
+        accept_findings(&mut studio, worker.findings());
     }
 }
 

@@ -106,7 +106,7 @@ pub(super) fn show(ui: &mut Ui, studio: &Studio, room: Vec2, commands: &mut Vec<
     let say = |ui: &mut Ui, words: String| {
         ui.add(Label::new(RichText::new(words).color(palette(ui).dim)).wrap());
     };
-    if let Some(why) = cloud_refusal(&studio.deck, &studio.viewer) {
+    if let Some(why) = cloud_refusal(studio) {
         return say(ui, capitalised(&format!("{why}.")));
     }
     let picture = match shown_cloud(studio).map(|found| &found.picture) {

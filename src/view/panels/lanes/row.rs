@@ -133,7 +133,7 @@ impl<'a> Row<'a> {
     }
 
     pub(super) fn position(&self) -> Option<f64> {
-        let (q, _) = shown_state(&self.studio.deck, &self.studio.viewer, self.flown_body()?);
+        let (q, _) = shown_state(self.studio, self.flown_body()?);
         q.first().copied()
     }
 

@@ -63,7 +63,7 @@ fn about_trace(trace: &FrameTrace) -> String {
 }
 
 pub(in crate::panels) fn trace_menu(ui: &mut Ui, loops: &LoopLab, commands: &mut Vec<Command>) {
-    let trace = &loops.traces()[loops.trace()];
+    let trace = loops.chosen_trace();
     let chosen = trace.name();
     let menu = ComboBox::from_id_salt("trace").selected_text(short_name(chosen)).width(112.0);
     let menu = menu.height(480.0);
@@ -103,7 +103,7 @@ pub(in crate::panels) fn engine_menu(ui: &mut Ui, loops: &LoopLab, commands: &mu
 pub(in crate::panels) fn moment(loops: &LoopLab, is_wide: bool) -> String {
     let t_s = loops.now_ns() as f64 / 1e9;
     let frame = loops.lanes()[loops.selected()].frame_at(loops.now_ns()).unwrap_or_default();
-    let is_long = loops.traces()[loops.trace()].name().chars().count() > LONG_NAME;
+    let is_long = loops.chosen_trace().name().chars().count() > LONG_NAME;
     match (is_wide, is_long) {
         (true, false) => format!("t = {t_s:.3} s · frame {frame}"),
         (true, true) => format!("t = {t_s:.3} s"),
@@ -113,7 +113,7 @@ pub(in crate::panels) fn moment(loops: &LoopLab, is_wide: bool) -> String {
 
 /// Shows the refresh rate of the simulated display.
 pub(in crate::panels) fn display(ui: &mut Ui, loops: &LoopLab) {
-    let hz = round(loops.traces()[loops.trace()].refresh().hz(), 4);
+    let hz = round(loops.chosen_trace().refresh().hz(), 4);
     let text = RichText::new(format!("{hz} Hz display, simulated")).color(palette(ui).dim);
     ui.label(text).on_hover_text("nothing here depends on the display of this computer");
 }

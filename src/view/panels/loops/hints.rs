@@ -34,7 +34,7 @@ pub(in crate::panels) fn parts(loops: &LoopLab) -> Vec<String> {
     let repeated = report.and_then(|report| many(report.repeated_percent));
     // Frames without a tick are about as frequent as those with two. In other traces most frames have no tick.
     let flips = doubled.zip(repeated).is_some_and(|(two, none)| none < MUCH_MORE * two);
-    if flips && loops.traces()[loops.trace()].name() == EDGE {
+    if flips && loops.chosen_trace().name() == EDGE {
         let next = hz(next);
         return vec![
             "Raw ticks flip between none and two a frame".into(),

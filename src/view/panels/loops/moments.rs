@@ -32,7 +32,7 @@ const MAX_LENGTH_MS: f64 = 2000.0;
 
 /// Returns the length of the plot in milliseconds. A loop is behind by one or two ticks, and has to be on the plot.
 fn length_ms(loops: &LoopLab) -> f64 {
-    let frames_ms = FRAMES * 1000.0 / loops.traces()[loops.trace()].refresh().hz();
+    let frames_ms = FRAMES * 1000.0 / loops.chosen_trace().refresh().hz();
     let ticks_ms = TICKS * 1000.0 / f64::from(loops.scene().tick_hz);
     frames_ms.max(ticks_ms.min(MAX_LENGTH_MS))
 }
@@ -104,7 +104,7 @@ pub(super) fn layout(
     let above = pos2(rect.left(), room.top());
     let upright = name(above, Align2::LEFT_TOP, "moment shown, ms from now", ticks);
     all.push(Text { right: room.right(), ..upright }.into());
-    let hz = round(loops.traces()[loops.trace()].refresh().hz(), 4);
+    let hz = round(loops.chosen_trace().refresh().hz(), 4);
     let frames = (format!("{hz} Hz frames"), palette.text);
     let below = pos2(rect.center().x, room.bottom());
     let along = name(below, Align2::CENTER_BOTTOM, "displayed, ms from now", frames);

@@ -98,7 +98,7 @@ impl TableRow for Row<'_> {
             ui.label(format!("Constants: {}.", card.constants));
         }
         ui.label(format!("Odd frames: {}.", card.odd_frames));
-        let display = self.loops.traces()[self.loops.trace()].name();
+        let display = self.loops.chosen_trace().name();
         let tick_hz = self.loops.scene().tick_hz;
         ui.label(format!("At {tick_hz:.3} Hz, trace {display}: {}.", self.verdict.whole()));
         let advised = self.loops.advised().filter(|advised| advised.index == self.index);

@@ -1,9 +1,9 @@
 //! The timeline of the loop lab, which reaches from the first frame to the last. A click or a drag seeks to a moment.
 
-use egui::{Align2, Rangef, Response, Ui};
+use egui::{Align2, Ui};
 
 use crate::loops::loop_lab::{LoopCommand, LoopLab};
-use crate::panels::timeline::{Groove, Span, THICKNESS, pressed, step};
+use crate::panels::timeline::{Groove, Span, THICKNESS};
 use crate::studio::Command;
 use crate::theme::palette;
 
@@ -12,10 +12,14 @@ pub(in crate::panels) fn show(ui: &mut Ui, loops: &LoopLab, commands: &mut Vec<C
     let groove = Groove::new(ui.available_rect_before_wrap(), 0.0);
     let Some(groove) = groove.filter(|_| span.to_s > 0.0) else { return };
     let response = groove.interact(ui);
-    seek(ui, loops, &response, (span, groove.along), commands);
+    let (along, now_s) = (groove.along, loops.now_ns() as f64 / 1e9);
+    let now = (now_s, format!("timeline, at {now_s:.3} s"));
+    groove.seek(ui, &response, now, commands, |x| {
+        let moment_ns = (span.t(x, along) * 1e9).round() as i64;
+        Some(Command::Loop(LoopCommand::Seek(moment_ns)))
+    });
 
-    let (palette, painter, along) = (palette(ui), ui.painter(), groove.along);
-    let now_s = loops.now_ns() as f64 / 1e9;
+    let (palette, painter) = (palette(ui), ui.painter());
     groove.write(painter, span, palette);
     let text = format!("{now_s:.2} of {:.0} s", span.to_s);
     groove.write_at(painter, Align2::RIGHT_CENTER, &text, palette);
@@ -26,27 +30,9 @@ pub(in crate::panels) fn show(ui: &mut Ui, loops: &LoopLab, commands: &mut Vec<C
     groove.handle(painter, x, response.has_focus(), palette);
 }
 
-/// Seeks to the pressed moment. While the track has the focus, the arrow keys step by frames.
-fn seek(
-    ui: &Ui,
-    loops: &LoopLab,
-    response: &Response,
-    (span, along): (Span, Rangef),
-    commands: &mut Vec<Command>,
-) {
-    let now_s = loops.now_ns() as f64 / 1e9;
-    let name = format!("timeline, at {now_s:.3} s");
-    response.widget_info(|| egui::WidgetInfo::slider(true, now_s, &name));
-    if let Some(x) = pressed(ui, response, along) {
-        let moment_ns = (span.t(x, along) * 1e9).round() as i64;
-        commands.push(Command::Loop(LoopCommand::Seek(moment_ns)));
-    }
-    step(ui, response, commands);
-}
-
 #[cfg(test)]
 mod tests {
-    use egui::{Vec2, pos2, vec2};
+    use egui::{Rangef, Vec2, pos2, vec2};
 
     use super::*;
     use crate::panels;

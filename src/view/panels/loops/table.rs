@@ -77,7 +77,7 @@ fn columns<'a>(loops: &LoopLab) -> Vec<Column<Row<'a>>> {
         |row| SortKey::Number(row.index as f64),
     );
     let about = "the effect of this loop on motion at this tick rate on this display; sorts from best to worst";
-    let display = loops.traces()[loops.trace()].name();
+    let display = loops.chosen_trace().name();
     let verdict = Column::shown(
         "Verdict",
         0.0,

@@ -323,12 +323,11 @@ fn stage_and_plot_show_the_same_speed_at_the_same_time() {
     studio.apply(ViewCommand::Quantity(Some(Quantity::Velocity)));
     for _ in 0..60 {
         studio.advance(173_000_000);
-        let (deck, viewer) = (&studio.deck, &studio.viewer);
         let body = &studio.race().entrants()[0].lane.bodies()[0];
-        let on_stage = crate::studio::shown_state(deck, viewer, body).1[0];
-        let exact = crate::studio::shown_truth(deck, viewer, 0).1[0];
+        let on_stage = crate::studio::shown_state(&studio, body).1[0];
+        let exact = crate::studio::shown_truth(&studio, 0).1[0];
         let set = plot_set_of(&studio, Detail::Samples).unwrap();
-        let now_s = crate::studio::shown_s(deck, viewer);
+        let now_s = crate::studio::shown_s(&studio);
         assert_eq!(set.styles.now_s, now_s);
         let readouts = set.plots[0].readouts(&studio, &set.styles, now_s);
         let near = |found: f64, wanted: f64| (found - wanted).abs() < 1e-6 * wanted.abs().max(1.0);
