@@ -18,8 +18,8 @@ impl Studio {
     /// [offered](crate::Deck::offered) method is judged at the present tick rate. In a race the rest of the menu is
     /// judged too. The advice is included while it is shown.
     ///
-    /// A verdict is on the motion after the last change of the run, from the state that a lane had then. A method that a
-    /// race lacks is judged from the true state. Advice is on the scene from its start, or from where a person last
+    /// A verdict is on the motion after the last change of the run, from the state that a lane had then. A method that
+    /// a race lacks is judged from the true state. Advice is on the scene from its start, or from where a person last
     /// placed or kicked a body. It includes a person's settings, and the parameters that the script has set by the
     /// present tick.
     pub fn analysis_request(&self) -> AnalysisRequest {

@@ -211,7 +211,7 @@ struct Head {
 }
 
 impl Head {
-    /// Reads up to the first line that `is_header`, which is told whether it is the first with cells, or `most` lines.
+    /// Reads up to the first line that `is_header`, which knows whether it is the first with cells, or `most` lines.
     fn read<R: BufRead>(
         input: &mut Text<R>,
         most: u64,

@@ -27,7 +27,7 @@ fn no_stop_shows_its_answer_before_the_prediction() {
         studio.analyse();
         let entries = studio.entries().len();
         let judged = |studio: &Studio| (0..entries).any(|it| studio.viewer.verdict(it).is_some());
-        let lands = |studio: &Studio| one_step(&studio).is_some_and(|step| step.landing.is_some());
+        let lands = |studio: &Studio| one_step(studio).is_some_and(|step| step.landing.is_some());
         studio.advance(1_000_000_000);
         assert_eq!(studio.race().tick(), 0, "{}: time waits", stop.title);
         assert!(studio.viewer.is_asked() && !judged(&studio) && !lands(&studio), "{}", stop.title);

@@ -20,7 +20,7 @@ fn studio(scene: &str, method: &str, ticks: u64) -> Studio {
 
 /// Returns the anatomy of the next tick of the selected lane.
 fn step_of(studio: &Studio) -> Option<OneStep> {
-    one_step(&studio)
+    one_step(studio)
 }
 
 /// Returns the name of a scene that the method can step.

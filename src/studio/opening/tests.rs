@@ -249,7 +249,7 @@ fn a_recording_at_another_tick_rate_is_compared_at_the_same_moment() {
         let (spec, compared) = (studio.selected().spec, studio.deck.compared().unwrap());
         let (_, there) = compared.body(studio.scene(), &spec, 0).unwrap();
         let body = &studio.selected().lane.bodies()[0];
-        let (here, _) = crate::shown_state(&studio, body);
+        let (here, _) = crate::shown_state(studio, body);
         (there[0] - here[0]).abs()
     };
     for tick in [1, 7, 60, 61, 150] {
@@ -274,7 +274,7 @@ fn my_spring_runs_at_the_tick_rate_of_its_dialog_and_opens_the_advice() {
     let mut studio = Studio::new(Scene::built_in("ship").unwrap());
     studio.viewer.preferences.display.measure = false;
     studio.apply(ViewCommand::AskForSpring);
-    let asked = |studio: &Studio| described_spring(&studio).1;
+    let asked = |studio: &Studio| described_spring(studio).1;
     assert_eq!(asked(&studio), studio.clock().tick_hz(), "the present one at first");
     let rate = crate::SpringField::tick_rate(asked(&studio));
     assert!(rate.is_whole && rate.value == f64::from(asked(&studio)));
