@@ -10,7 +10,7 @@ use crate::scene::LaneSpec;
 use crate::sim::stability::Tick;
 
 /// Returns the anatomy of the next tick of the displayed body in the selected lane, or `None` if the body has halted.
-/// While a person is [asked](Viewer::is_asked) for a prediction, the anatomy omits the end of the tick.
+/// While a person is [asked](crate::Viewer::is_asked) for a prediction, the anatomy omits the end of the tick.
 pub fn one_step(studio: &Studio) -> Option<OneStep> {
     let (entrant, race) = (studio.selected(), studio.race());
     let spec = entrant.spec;
