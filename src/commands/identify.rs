@@ -217,8 +217,8 @@ impl LogArgs {
         LoggedBody { spring, drag, push: thrust / mass, rest: self.rest, v0: self.v0 }
     }
 
-    /// Identifies the log of a body. If no method explains it, a drag below 1 is read as the part of its velocity that a
-    /// body loses in a second.
+    /// Identifies the log of a body. If no method explains it, a drag below 1 is read as the part of its velocity that
+    /// a body loses in a second.
     pub(super) fn identify(&self, log: &Log, mass: f64) -> Option<Identification> {
         let body = self.body(mass);
         let found = identify(log, &body, log.tick_hz());

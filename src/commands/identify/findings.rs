@@ -210,8 +210,8 @@ fn phrase(all: &[&Candidate]) -> String {
     named.join(" or ") + &more
 }
 
-/// Says how a log moves: as a method, and as engines do. A name is a claim over the methods of the table, so that code of
-/// one's own with the same step always stands beside an engine.
+/// Says how a log moves: as a method, and as engines do. A name is a claim over the methods of the table, so that user
+/// code with the same step always stands beside an engine.
 fn moves_as(best: &Candidate, also: &[Candidate]) -> String {
     let (engines, own): (Vec<&Candidate>, _) =
         makers(best, also).into_iter().partition(|candidate| candidate.method.is_engine());

@@ -2,6 +2,10 @@
 
 use std::f64::consts::TAU;
 
+/// The stiffness per unit of mass, in 1/s², and the damping, in 1/s, of a setting of 1 in Matter.js.
+pub(super) const FULL_STIFFNESS: f64 = 24_000.0;
+pub(super) const FULL_DAMPING: f64 = 240.0;
+
 /// A way to set a spring in an engine, by one setting for stiffness and one for damping.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct JointMode {
@@ -13,8 +17,8 @@ pub struct JointMode {
     pub damping: Setting,
     /// Whether the engine computes the spring's force at the start of a substep, like a force of user code.
     pub is_explicit: bool,
-    /// The [other engine](super::Method::also) with the same map that the lines of code are of; `None` for the engine of
-    /// the card.
+    /// The [other engine](super::Method::also) with the same map that the lines of code are of. `None` for the engine
+    /// of the card.
     pub engine: Option<&'static str>,
     /// Lines of code that set the spring, in the engine's own language, with the names of settings in braces.
     pub code: &'static str,
@@ -54,7 +58,6 @@ pub enum JointQuantity {
     Undamped,
 }
 
-use super::matter::{FULL_DAMPING, FULL_STIFFNESS};
 use JointQuantity::*;
 
 impl JointQuantity {

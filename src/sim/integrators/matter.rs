@@ -1,6 +1,7 @@
 //! Matter.js, whose constraint moves positions in iterations, and remembers a part of the way for the next pass.
 
 use super::joint_mode::JointQuantity::{IterationBrake, IterationPart};
+use super::joint_mode::{FULL_DAMPING, FULL_STIFFNESS};
 use super::prelude::*;
 
 const MODES: [JointMode; 1] = [mode(
@@ -48,9 +49,6 @@ const PASSES: u32 = 2;
 const ITERATIONS: u32 = 2;
 /// The part of a pass that the next pass starts with.
 const KEPT: f64 = 0.4;
-/// The stiffness per unit of mass, in 1/s², and the damping, in 1/s, of a setting of 1.
-pub(super) const FULL_STIFFNESS: f64 = 24_000.0;
-pub(super) const FULL_DAMPING: f64 = 240.0;
 
 /// Matter.js, whose tick follows the [formula](Method::formula) on its card.
 #[derive(Clone)]
