@@ -15,7 +15,7 @@ pub(super) const CARD: Method = Method {
     id: "engine-oimo-symplectic",
     name: "OimoPhysics, symplectic",
     also: &[],
-    about: "semi-implicit Euler with implicit damping on a spring, whose damping ratio is 1e-6 at least; beyond h ω = 2 it leaps \
+    about: "semi-implicit Euler with implicit damping on a spring, whose damping ratio is 1e-6 at least; with h ω above 2 it leaps \
             20 m a tick",
     symplectic: true,
     engine: Some(Engine { damping_ratio: Some(0.0), modes: &MODES, ..oimo::OIMO }),
