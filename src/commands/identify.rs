@@ -14,7 +14,9 @@ use super::terminal::print_status;
 use super::tick_rate::{rate_of_a_log, rate_of_a_step};
 use crate::regular_file;
 use crate::table::{Heading, TableOptions};
-use crate::tools::identify::{Log, LogError, LogSetting, LoggedBody, identify};
+use crate::tools::identify::{
+    Conclusion, Identification, Log, LogError, LogSetting, LoggedBody, identify,
+};
 
 mod findings;
 mod spin;
@@ -117,6 +119,8 @@ pub(super) struct LogArgs {
     c: Option<f64>,
 
     /// The damping setting of the body
+    ///
+    /// In 1/s, or the number d below 1 of Bullet, cannon-es and p2-es, whose drag is -ln(1 - d).
     #[arg(long, value_name = "1/s", value_parser = number, allow_negative_numbers = true)]
     drag: Option<f64>,
 
@@ -212,6 +216,27 @@ impl LogArgs {
         let (drag, thrust) = (self.drag.unwrap_or(0.0), self.thrust.unwrap_or(0.0));
         LoggedBody { spring, drag, push: thrust / mass, rest: self.rest, v0: self.v0 }
     }
+
+    /// Identifies the log of a body. If no method explains it, a drag below 1 is read as the part of its velocity that
+    /// a body loses in a second.
+    pub(super) fn identify(&self, log: &Log, mass: f64) -> Option<Identification> {
+        let body = self.body(mass);
+        let found = identify(log, &body, log.tick_hz());
+        let is_unknown = found.as_ref().is_none_or(|found| found.conclusion == Conclusion::Unknown);
+        if !(is_unknown && body.drag > 0.0 && body.drag < 1.0) {
+            return found;
+        }
+        let drag = -libm::log1p(-body.drag);
+        let by_part = identify(log, &LoggedBody { drag, ..body.clone() }, log.tick_hz());
+        let by_part = by_part.filter(|found| found.conclusion != Conclusion::Unknown);
+        if by_part.is_some() {
+            print_status(&format!(
+                "--drag {} is the part lost in a second, as in Bullet, cannon-es and p2-es: a drag of {drag} 1/s",
+                body.drag
+            ));
+        }
+        by_part.or(found)
+    }
 }
 
 pub(super) fn run(args: &IdentifyArgs) -> Result<(), Error> {
@@ -220,7 +245,7 @@ pub(super) fn run(args: &IdentifyArgs) -> Result<(), Error> {
         return args.format.print(&spin::answer(args, &file, moments)?);
     }
     let logs = logs(args, &file)?;
-    let found = |log: &Log| identify(log, &args.read.body(args.mass), log.tick_hz());
+    let found = |log: &Log| args.read.identify(log, args.mass);
     if let TableFormat::Json = args.format {
         let mut objects =
             logs.iter().map(|(name, log)| (name, object(found(log).as_ref(), log, args.mass)));

@@ -15,11 +15,11 @@ use crate::regular_file;
 use crate::scene::MAX_SUBSTEPS;
 use crate::sim::integrators::{METHODS, Method};
 use crate::tools::identify::Identification;
+use crate::tools::port;
 use crate::tools::port::{
     Approach, DriveLimits, Ported, Setup, UI_SPRINGS, UiSpring, Wish, drive_limits, followers,
     setups,
 };
-use crate::tools::{identify, port};
 
 mod report;
 mod wish_source;
@@ -145,7 +145,8 @@ pub(super) struct PortArgs {
 #[derive(Clone, Copy, Debug)]
 enum Target {
     Engines,
-    Engine(&'static Method),
+    /// An engine, and the id that was asked for, which is its own or that of another engine with the same map.
+    Engine(&'static Method, &'static str),
     UiSprings,
     UiSpring(&'static UiSpring),
 }
@@ -163,7 +164,10 @@ fn engines() -> impl Iterator<Item = &'static Method> {
 const TARGET: Id<Target> = Id::new("engine or user interface with a spring", || {
     let dialects = UI_SPRINGS.iter().map(|it| (it.id.into(), Target::UiSpring(it)));
     let all = [("all".into(), Target::Engines), ("ui".into(), Target::UiSprings)];
-    let engines = engines().map(|it| (it.id.into(), Target::Engine(it)));
+    let engines = engines().flat_map(|it| {
+        let ids = [it.id].into_iter().chain(it.also.iter().copied());
+        ids.map(move |id| (id.into(), Target::Engine(it, id)))
+    });
     all.into_iter().chain(engines).chain(dialects).collect()
 });
 
@@ -198,16 +202,14 @@ struct Drive {
     limits: Vec<DriveLimits>,
 }
 
-fn asked_engines(asked: &[Target]) -> Vec<&'static Method> {
-    let is_asked = |method: &&Method| {
-        let asks = |asked: &Target| match asked {
-            Target::Engines => true,
-            Target::Engine(asked) => asked == method,
-            Target::UiSprings | Target::UiSpring(_) => false,
-        };
-        asked.iter().any(asks)
+/// Whether the setup has the names of an engine that is asked for.
+fn is_asked(setup: &Setup, asked: &[Target]) -> bool {
+    let asks = |asked: &Target| match asked {
+        Target::Engines => true,
+        Target::Engine(_, id) => setup.is_of(id),
+        Target::UiSprings | Target::UiSpring(_) => false,
     };
-    engines().filter(is_asked).collect()
+    asked.iter().any(asks)
 }
 
 /// Returns the dialects, each once.
@@ -215,7 +217,7 @@ fn asked_dialects(asked: &[Target]) -> Vec<&'static UiSpring> {
     let asked = asked.iter().flat_map(|asked| match asked {
         Target::UiSprings => UI_SPRINGS,
         Target::UiSpring(dialect) => std::slice::from_ref(*dialect),
-        Target::Engines | Target::Engine(_) => &[],
+        Target::Engines | Target::Engine(..) => &[],
     });
     let mut dialects: Vec<&'static UiSpring> = Vec::new();
     for dialect in asked {
@@ -264,7 +266,7 @@ pub(super) fn run(args: &PortArgs) -> Result<(), Error> {
         Some(WishSource::Log(path)) => {
             let log = args.read.read(&path, (args.step_hz.or(args.tick_hz), USUAL_HZ))?;
             (tick_hz, read) = (log.tick_hz(), Some(log.taken().clone()));
-            let found = identify(&log, &args.read.body(args.mass), tick_hz);
+            let found = args.read.identify(&log, args.mass);
             if let Some(half_life_s) = found.as_ref().and_then(Identification::chase_half_life_s)
                 && !args.drive
             {
@@ -288,7 +290,8 @@ pub(super) fn run(args: &PortArgs) -> Result<(), Error> {
         },
     };
     let asked = if args.to.is_empty() { &[usual][..] } else { &args.to[..] };
-    let setups = setups(Some(&asked_engines(asked)), tick_hz, args.substeps);
+    let mut setups = setups(None, tick_hz, args.substeps);
+    setups.retain(|setup| is_asked(setup, asked));
     let dialects = asked_dialects(asked);
     for (option, is_given) in [("--drive", args.drive), ("--substeps", args.substeps.is_some())] {
         if is_given && setups.is_empty() || args.drive && !dialects.is_empty() {

@@ -93,10 +93,11 @@ const fn case(told: [f64; 4], start: [f64; 2], h: f64, substeps: u32) -> Case {
 }
 
 /// Usual steps, and such that every limit of an engine acts: its clamps, its speed limit, its largest numbers.
-const CASES: [Case; 12] = [
+const CASES: [Case; 13] = [
     case([40.0, 1.5, 0.3, 2.5], [1.0, 0.5], 0.05, 3),
     case([40.0, 1.5, 0.3, 0.0], [-1.0, 0.5], 0.01, 2),
     case([0.0, 0.0, 0.3, 2.5], [1.0, -0.5], 0.05, 3),
+    case([0.0, 0.0, 0.3, 0.0], [1.0, -0.5], 0.05, 1),
     case([40.0, 1.5, 0.3, -200.0], [1.0, 0.5], 0.05, 1),
     case([4e3, 90.0, 30.0, 2.5], [1.0, -0.5], 0.1, 3),
     case([40.0, 1.5, 30.0, 200.0], [2.0, 1.0], 0.1, 2),

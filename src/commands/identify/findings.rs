@@ -25,8 +25,11 @@ pub(super) fn object(found: Option<&Identification>, log: &Log, mass: f64) -> Va
     let exact = found.and_then(|found| found.exact);
     let candidates = |all: fn(&Identification) -> &[Candidate]| -> Vec<Value> {
         let all = found.map(all).unwrap_or_default();
-        all.iter().map(named).collect()
+        with_others(all).map(named).collect()
     };
+    let also =
+        found.and_then(|found| Some(with_also(&found.best.as_ref()?.candidate, &found.also)));
+    let also: Vec<Value> = also.into_iter().flatten().map(named).collect();
     let halves = effective.and_then(|seen| seen.energy_halves_s());
     let seen = |(method, effective): &(&Method, Effective)| {
         json!({
@@ -46,7 +49,7 @@ pub(super) fn object(found: Option<&Identification>, log: &Log, mass: f64) -> Va
             .filter(|version| !version.is_empty()),
         "logged": best.and_then(|best| best.candidate.method.engine?.logged),
         "residual": best.map(|best| best.residual),
-        "also": candidates(|found| &found.also),
+        "also": also,
         "unusual": candidates(|found| &found.unusual),
         "runner_up": rival.map(|other| other.candidate.method.id),
         "runner_up_substeps": rival.map(|other| other.candidate.substeps),
@@ -79,9 +82,26 @@ pub(super) fn object(found: Option<&Identification>, log: &Log, mass: f64) -> Va
     })
 }
 
-fn named(candidate: &Candidate) -> Value {
+/// Returns each candidate with the id of its method, then with those of the other engines that have the same map.
+fn with_others(all: &[Candidate]) -> impl Iterator<Item = (&'static str, &Candidate)> {
+    all.iter().flat_map(|candidate| {
+        let method = candidate.method;
+        let others = method.is_engine().then_some(method.also).into_iter().flatten().copied();
+        [method.id].into_iter().chain(others).map(move |id| (id, candidate))
+    })
+}
+
+/// Returns the names beside that of the best candidate, as [`with_others`] does.
+fn with_also<'a>(
+    best: &'a Candidate,
+    also: &'a [Candidate],
+) -> impl Iterator<Item = (&'static str, &'a Candidate)> {
+    with_others(std::slice::from_ref(best)).skip(1).chain(with_others(also))
+}
+
+fn named((id, candidate): (&str, &Candidate)) -> Value {
     json!({
-        "method": candidate.method.id,
+        "method": id,
         "substeps": candidate.substeps,
         "held": candidate.is_held(),
         "mode": mode(candidate),
@@ -97,10 +117,10 @@ fn mode(candidate: &Candidate) -> Option<&'static str> {
 }
 
 /// Lists the methods, each of them once, with its substeps.
-fn names(candidates: &[Candidate]) -> String {
+fn names<'a>(candidates: impl Iterator<Item = (&'static str, &'a Candidate)>) -> String {
     let mut all: Vec<(&str, Option<&str>, Vec<u32>)> = Vec::new();
-    for candidate in candidates {
-        let (id, told) = (candidate.method.id, candidate.spring_label());
+    for (id, candidate) in candidates {
+        let told = candidate.spring_label();
         match all.iter_mut().find(|(known, of, _)| *known == id && *of == told) {
             Some((.., counts)) => counts.push(candidate.substeps),
             None => all.push((id, told, vec![candidate.substeps])),
@@ -174,14 +194,33 @@ fn makers<'a>(best: &'a Candidate, also: &'a [Candidate]) -> Vec<&'a Candidate> 
     all
 }
 
-/// Lists the candidates in one phrase.
+/// Lists the candidates in one phrase, which says that they are equal.
 fn listed(all: &[&Candidate]) -> String {
-    let mut named: Vec<String> = all.iter().take(MAX_MAKERS).map(ToString::to_string).collect();
-    match (named.len(), all.len() - named.len()) {
-        (1, _) => named.remove(0),
-        (_, 0) => format!("{} (the same on this body)", named.join(" or ")),
-        (_, more) => format!("{} or {more} more (the same on this body)", named.join(" or ")),
+    let equal = if all.len() > 1 { " (the same on this body)" } else { "" };
+    phrase(all) + equal
+}
+
+/// Lists the first candidates, and the number of the others.
+fn phrase(all: &[&Candidate]) -> String {
+    let named: Vec<String> = all.iter().take(MAX_MAKERS).map(ToString::to_string).collect();
+    let more = match all.len() - named.len() {
+        0 => String::new(),
+        more => format!(" or {more} more"),
+    };
+    named.join(" or ") + &more
+}
+
+/// Says how a log moves: as a method, and as engines do. A name is a claim over the methods of the table, so that user
+/// code with the same step always stands beside an engine.
+fn moves_as(best: &Candidate, also: &[Candidate]) -> String {
+    let (engines, own): (Vec<&Candidate>, _) =
+        makers(best, also).into_iter().partition(|candidate| candidate.method.is_engine());
+    if engines.is_empty() {
+        return format!("moves as {}", listed(&own));
     }
+    let own = if own.is_empty() { String::new() } else { format!("{}: as ", phrase(&own)) };
+    let verb = if engines.len() == 1 { "does" } else { "do" };
+    format!("moves as {own}{} {verb}, or code with the same step", phrase(&engines))
 }
 
 /// Returns the first line, which is the method and its residual.
@@ -202,8 +241,8 @@ fn verdict(found: &Identification, log: &Log) -> String {
                 true => ", if it starts at rest (--v0 0)",
                 false => "",
             };
-            let makers = listed(&makers(&best.candidate, &found.also));
-            format!("made by {makers}, {}{supposed}", residual(best))
+            let moves = moves_as(&best.candidate, &found.also);
+            format!("{moves}, {}{supposed}", residual(best))
         }
         (Conclusion::CannotTell, Some(rival)) => format!(
             "cannot tell {} from {}: {} and {:.1e}; {}",
@@ -229,11 +268,10 @@ pub(super) fn spin_text(found: Option<&Identification>) -> String {
     let Some((found, best)) = found.and_then(|found| Some((found, found.best?))) else {
         return "unknown: no two rows in a row are a tick apart, or nothing spins\n".into();
     };
-    let makers = listed(&makers(&best.candidate, &found.also));
     let lines = match (found.conclusion, &found.runner_up) {
         (Conclusion::Identified, Some(rival)) => vec![
-            format!("made by {makers}, residual {:.1e}", best.residual),
-            format!("the same on this body: {}", names(&found.also)),
+            format!("{}, residual {:.1e}", moves_as(&best.candidate, &found.also), best.residual),
+            format!("the same on this body: {}", names(with_also(&best.candidate, &found.also))),
             format!("runner-up: {}", residual(rival)),
         ],
         (Conclusion::Unknown, _) => vec![
@@ -290,12 +328,16 @@ pub(super) fn report_text(found: &Identification, log: &Log, mass: f64) -> Strin
     if found.is_rest_fitted && found.rest.abs() > NO_REST * size {
         lines.push(format!("it rests at {} m", significant(found.rest, 5)));
     }
-    let told = *conclusion != Conclusion::Unknown;
-    if told && !found.also.is_empty() {
-        lines.push(format!("the same on this body: {}", names(&found.also)));
+    let told = best.filter(|_| *conclusion != Conclusion::Unknown);
+    let also = told.map_or(String::new(), |best| names(with_also(best, &found.also)));
+    if !also.is_empty() {
+        lines.push(format!("the same on this body: {also}"));
     }
     if *conclusion == Conclusion::Identified && !found.unusual.is_empty() {
-        lines.push(format!("would fit too, but few set them: {}", names(&found.unusual)));
+        lines.push(format!(
+            "would fit too, but few set them: {}",
+            names(with_others(&found.unusual))
+        ));
     }
     if let (Conclusion::Identified, Some(rival)) = (conclusion, rival) {
         lines.push(format!("runner-up: {}, {}", rival.candidate, residual(rival)));

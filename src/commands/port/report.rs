@@ -43,7 +43,7 @@ fn seen_object(seen: &Effective) -> Value {
 }
 
 fn name(setup: &Setup) -> String {
-    format!("{} ×{}, {}", setup.method.id, setup.substeps, setup.mode.id)
+    format!("{} ×{}, {}", setup.engine_id(), setup.substeps, setup.mode.id)
 }
 
 fn wish_line(wish: &Wish, tick_hz: f64) -> String {
@@ -190,7 +190,7 @@ fn row(PortedEngine { setup, ported }: &PortedEngine) -> Value {
     let word = ported.as_ref().map_or(PortOutcome::Nearest, |ported| ported.outcome).id();
     let force = |[k, c]: [f64; 2]| json!({"stiffness_n_per_m": k, "damping_n_s_per_m": c});
     json!({
-        "method": setup.method.id,
+        "method": setup.engine_id(),
         "mode": setup.mode.id,
         "substeps": setup.substeps,
         "version": engine.map(|engine| engine.version),
@@ -269,7 +269,7 @@ pub(super) fn drives(
         TableFormat::Json => {
             let row = |drive: &Drive, limits: &DriveLimits| {
                 json!({
-                    "method": drive.setup.method.id,
+                    "method": drive.setup.engine_id(),
                     "mode": limits.held_ticks.map_or(drive.setup.mode.id, |_| "own-force"),
                     "substeps": drive.setup.substeps,
                     "decimation": limits.held_ticks,

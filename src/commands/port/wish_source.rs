@@ -3,11 +3,11 @@
 
 use std::path::PathBuf;
 
-use super::{TARGET, Target};
+use super::{TARGET, Target, USUAL_HZ};
 use crate::scene::{MAX_SUBSTEPS, clip};
 use crate::sim::integrators::{JointMode, Method, Setting};
 use crate::sim::number::significant;
-use crate::tools::port::{Approach, Friction, Key, Setup, UiSpring, Wish};
+use crate::tools::port::{Approach, Friction, Key, Setup, UiSpring, Wish, setups};
 
 /// The source of a wish.
 pub(super) enum WishSource {
@@ -51,8 +51,8 @@ impl WishSource {
     pub(super) fn parse(written: &str, tick_hz: f64, mass_kg: f64) -> Result<Self, String> {
         let Some((head, rest)) = written.split_once(':') else {
             return match TARGET.find(written) {
-                Ok(Target::Engine(method)) => {
-                    Err(format!("give its settings too: {}", example(method)))
+                Ok(Target::Engine(method, id)) => {
+                    Err(format!("give its settings too: {}", example(method, id)))
                 }
                 Ok(Target::UiSpring(dialect)) => of_ui_spring(dialect, "", tick_hz, mass_kg),
                 _ => Ok(WishSource::Log(written.into())),
@@ -105,8 +105,8 @@ impl WishSource {
             // A single letter before the colon is the drive of a path.
             _ if head.len() == 1 => Ok(WishSource::Log(written.into())),
             _ => match TARGET.find(head)? {
-                Target::Engine(method) => {
-                    of_engine(method, rest, tick_hz, mass_kg).map(WishSource::Engine)
+                Target::Engine(method, id) => {
+                    of_engine((method, id), rest, tick_hz, mass_kg).map(WishSource::Engine)
                 }
                 Target::UiSpring(dialect) => of_ui_spring(dialect, rest, tick_hz, mass_kg),
                 _ => Err(format!("{head} is all of a kind; name one")),
@@ -133,10 +133,16 @@ fn of_decay(written: &str, fps: f64, mass_kg: f64) -> Result<Wish, String> {
 }
 
 /// Shows how to write the settings of an engine.
-fn example(method: &Method) -> String {
-    let mode = &method.engine.expect("an engine with a spring").modes[0];
+fn example(method: &'static Method, id: &str) -> String {
+    let mode = modes(method, id).next().expect("an engine with a spring");
     let [stiffness, damping] = mode.settings().map(|setting| setting.name);
-    format!("{}:{stiffness}=NUMBER,{damping}=NUMBER", method.id)
+    format!("{id}:{stiffness}=NUMBER,{damping}=NUMBER")
+}
+
+/// Returns the modes of the engine with this id, which is that of the card or of another engine with the same map.
+fn modes(method: &'static Method, id: &str) -> impl Iterator<Item = &'static JointMode> {
+    let setups = setups(Some(&[method]), USUAL_HZ, None).into_iter();
+    setups.filter(move |setup| setup.is_of(id)).map(|setup| setup.mode)
 }
 
 /// Returns the motion of a user interface with settings of the form `key=value,…`. A setting that is missing has the
@@ -229,20 +235,20 @@ impl EngineSettings {
 
 /// Parses the settings of an engine in the form `key=value,…`.
 fn of_engine(
-    method: &'static Method,
+    (method, id): (&'static Method, &'static str),
     written: &str,
     tick_hz: f64,
     mass_kg: f64,
 ) -> Result<EngineSettings, String> {
-    let modes = method.engine.map_or(&[][..], |engine| engine.modes);
+    let modes: Vec<&JointMode> = modes(method, id).collect();
     let (mut mode, mut tick_hz, mut substeps) = (None, tick_hz, method.default_substeps);
     let mut values: Vec<(&str, &str)> = Vec::new();
     for pair in written.split(',') {
-        let wrong = || format!("\"{}\" is no KEY=VALUE; write {}", clip(pair), example(method));
+        let wrong = || format!("\"{}\" is no KEY=VALUE; write {}", clip(pair), example(method, id));
         let (key, value) = pair.split_once('=').ok_or_else(wrong)?;
         match key.trim() {
             "mode" => {
-                let known = modes.iter().find(|mode| mode.id == value);
+                let known = modes.iter().copied().find(|mode| mode.id == value);
                 let ids = || modes.iter().map(|mode| mode.id).collect::<Vec<_>>().join(", ");
                 mode = Some(
                     known.ok_or_else(|| format!("no mode {}; there are {}", clip(value), ids()))?,
@@ -262,13 +268,13 @@ fn of_engine(
         }
     }
     let names = |mode: &JointMode| mode.settings().map(|setting| setting.name);
-    let tried = || modes.iter().filter(|known| mode.is_none_or(|mode| mode == *known));
+    let tried = || modes.iter().copied().filter(|known| mode.is_none_or(|mode| mode == *known));
     let fits = |mode: &&JointMode| values.iter().all(|(key, _)| names(mode).contains(key));
     let Some(mode) = tried().find(fits) else {
         let known: Vec<String> = tried().map(|mode| names(mode).join(" and ")).collect();
         let keys: Vec<&str> = values.iter().map(|(key, _)| *key).collect();
         let (keys, known) = (clip(&keys.join(" and ")), known.join(", or "));
-        return Err(format!("{} has no {keys}; it has {known}", method.id));
+        return Err(format!("{id} has no {keys}; it has {known}"));
     };
     let [stiffness, damping] = mode.settings();
     let value = |setting: Setting| {

@@ -25,6 +25,7 @@ pub(super) const ENGINE: Engine = Engine {
 pub(super) const CARD: Method = Method {
     id: "engine-box2d",
     name: "Box2D",
+    also: &["engine-phaser-box2d"],
     about: "its spring is solved twice a substep and loses energy twice as fast as implicit Euler at that step",
     default_substeps: 4,
     engine: Some(ENGINE),

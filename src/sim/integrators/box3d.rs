@@ -6,6 +6,7 @@ use super::prelude::*;
 pub(super) const CARD: Method = Method {
     id: "engine-box3d",
     name: "Box3D",
+    also: &[],
     about: "the spring of Box2D to the bit: it is solved twice a substep and loses energy as fast",
     engine: Some(Engine {
         bounce: None,

@@ -2,6 +2,10 @@
 
 use std::f64::consts::TAU;
 
+/// The stiffness per unit of mass, in 1/s², and the damping, in 1/s, of a setting of 1 in Matter.js.
+pub(super) const FULL_STIFFNESS: f64 = 24_000.0;
+pub(super) const FULL_DAMPING: f64 = 240.0;
+
 /// A way to set a spring in an engine, by one setting for stiffness and one for damping.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct JointMode {
@@ -13,6 +17,9 @@ pub struct JointMode {
     pub damping: Setting,
     /// Whether the engine computes the spring's force at the start of a substep, like a force of user code.
     pub is_explicit: bool,
+    /// The [other engine](super::Method::also) with the same map that the lines of code are of. `None` for the engine
+    /// of the card.
+    pub engine: Option<&'static str>,
     /// Lines of code that set the spring, in the engine's own language, with the names of settings in braces.
     pub code: &'static str,
 }
@@ -39,10 +46,16 @@ pub enum JointQuantity {
     Frequency,
     /// The damping c, in N s/m.
     Damping,
+    /// The part of its way to the rest by which Matter.js moves a body in an iteration, at 60 Hz.
+    IterationPart,
     /// The damping per unit of mass, c/m, in 1/s.
     DampingPerMass,
+    /// The part of its velocity that Matter.js takes from a body in an iteration, at 60 Hz.
+    IterationBrake,
     /// The damping ratio c / (2 √(k m)).
     DampingRatio,
+    /// A damping that must stay 0, because with more the spring is not linear.
+    Undamped,
 }
 
 use JointQuantity::*;
@@ -55,9 +68,9 @@ impl JointQuantity {
             StiffnessPerMass => "1/s²",
             Compliance => "m/N",
             Frequency => "Hz",
-            Damping => "N s/m",
+            Damping | Undamped => "N s/m",
             DampingPerMass => "1/s",
-            DampingRatio => "",
+            IterationPart | IterationBrake | DampingRatio => "",
         }
     }
 
@@ -69,17 +82,31 @@ impl JointQuantity {
             StiffnessPerMass => stiffness,
             Compliance => 1.0 / (stiffness * mass_kg),
             Frequency => libm::sqrt(stiffness) / TAU,
+            IterationPart => stiffness / FULL_STIFFNESS,
             Damping => damping * mass_kg,
             DampingPerMass => damping,
+            IterationBrake => damping / FULL_DAMPING,
             DampingRatio => damping / (2.0 * libm::sqrt(stiffness)),
+            Undamped => 0.0,
         }
     }
 }
 
 impl JointMode {
+    /// Returns the mode as one of another engine with the same map.
+    pub(super) const fn of(self, engine: &'static str) -> Self {
+        Self { engine: Some(engine), ..self }
+    }
+
     /// Returns the settings for the stiffness and for the damping.
     pub fn settings(&self) -> [Setting; 2] {
         [self.stiffness, self.damping]
+    }
+
+    /// Returns the joint that the mode has in place of this one, which is without damping if the mode takes none.
+    pub fn possible(&self, [stiffness, damping]: [f64; 2]) -> [f64; 2] {
+        let is_undamped = self.damping.quantity == Undamped;
+        [stiffness, if is_undamped { 0.0 } else { damping }]
     }
 
     /// Returns the values of the mode's settings for a joint on a mass in kg. The joint is given by its stiffness in
@@ -95,11 +122,14 @@ impl JointMode {
             Stiffness => first / mass_kg,
             Compliance => 1.0 / (first * mass_kg),
             Frequency => (TAU * first) * (TAU * first),
+            IterationPart => first * FULL_STIFFNESS,
             _ => first,
         };
         let damping = match self.damping.quantity {
             Damping => second / mass_kg,
             DampingRatio => 2.0 * second * libm::sqrt(stiffness),
+            IterationBrake => second * FULL_DAMPING,
+            Undamped => 0.0,
             _ => second,
         };
         [stiffness, damping]
@@ -130,7 +160,7 @@ pub(super) const fn mode(
 ) -> JointMode {
     let stiffness = Setting { name: stiffness.0, quantity: stiffness.1 };
     let damping = Setting { name: damping.0, quantity: damping.1 };
-    JointMode { id, stiffness, damping, is_explicit: false, code }
+    JointMode { id, stiffness, damping, is_explicit: false, engine: None, code }
 }
 
 /// Returns a [`mode`] with the settings `stiffness`, in N/m, and `damping`, in N s/m.
@@ -145,8 +175,8 @@ mod tests {
     #[test]
     fn any_pair_of_settings_gives_the_same_joint() {
         let joint = [39.5, 0.7];
-        for stiffness in [Stiffness, StiffnessPerMass, Compliance, Frequency] {
-            for damping in [Damping, DampingPerMass, DampingRatio] {
+        for stiffness in [Stiffness, StiffnessPerMass, Compliance, Frequency, IterationPart] {
+            for damping in [Damping, DampingPerMass, DampingRatio, IterationBrake] {
                 let mode = mode("any", ("a", stiffness), ("b", damping), "f({a}, {b})");
                 let back = mode.joint(mode.values(joint, 80.0), 80.0);
                 let is_near = |(a, b): (f64, f64)| (a / b - 1.0).abs() < 1e-14;

@@ -3,7 +3,7 @@
 use super::joint_mode::JointQuantity::{Damping, DampingRatio, Frequency, Stiffness};
 use super::prelude::*;
 
-const MODES: [JointMode; 2] = [
+const MODES: [JointMode; 3] = [
     mode(
         "frequency-and-damping",
         ("mFrequency", Frequency),
@@ -16,11 +16,19 @@ const MODES: [JointMode; 2] = [
         ("mDamping", Damping),
         "settings.mLimitsSpringSettings =\n    SpringSettings(ESpringMode::StiffnessAndDamping, {mStiffness}f, {mDamping}f);\nbodySettings.mLinearDamping = 0.0f;",
     ),
+    mode(
+        "crashcat-spring",
+        ("frequencyOrStiffness", Frequency),
+        ("damping", DampingRatio),
+        "springSettings: { mode: SpringMode.FREQUENCY_AND_DAMPING, frequencyOrStiffness: {frequencyOrStiffness}, damping: {damping} }\nlinearDamping: 0",
+    )
+    .of("engine-crashcat"),
 ];
 
 pub(super) const CARD: Method = Method {
     id: "engine-jolt",
     name: "Jolt",
+    also: &["engine-crashcat"],
     about: "implicit Euler on a spring; explicit drag; a body has a drag of 0.05 unless it is set to another",
     engine: Some(Engine {
         tick_hz: 60,

@@ -19,11 +19,13 @@ mod avian_motor;
 mod bdf2;
 mod bogacki_shampine_32;
 mod box2d;
+mod box2d_2;
 mod box3d;
 mod bullet;
 mod buss_2;
 mod buss_3;
 mod buss_enhanced;
+mod cannon;
 mod card;
 mod chipmunk;
 mod critically_damped_spring;
@@ -31,6 +33,7 @@ mod custom_method;
 mod dormand_prince_54;
 mod engine;
 mod engine_bounce;
+mod excalibur;
 mod explicit_euler;
 mod exponential_decay;
 mod exponential_rosenbrock_euler;
@@ -48,6 +51,7 @@ mod gyro_rescaled;
 mod gyro_rk4;
 mod gyro_rotated;
 mod gyro_rotated_engine;
+mod havok;
 mod held_force;
 mod implicit_euler;
 mod implicit_midpoint;
@@ -63,13 +67,19 @@ mod lerp_per_frame;
 mod lie_midpoint;
 mod lie_rk4;
 mod linearly_implicit_euler;
+mod matter;
 mod midpoint;
 mod momentum_euler;
 mod moser_veselov;
 mod mujoco;
+mod mujoco_discrete;
 mod mujoco_rk4;
+mod nape;
 mod newmark;
+mod oimo;
+mod oimo_symplectic;
 mod pefrl;
+mod phaser_arcade;
 mod physx;
 mod physx_tgs;
 mod physx_tgs_56;
@@ -306,6 +316,16 @@ methods! {
     mujoco_rk4::MujocoRk4 as EngineMethod,
     godot::Godot as EngineMethod,
     box3d::Box3d as EngineMethod,
+    box2d_2::Box2dV2 as EngineMethod,
+    cannon::Cannon as EngineMethod,
+    matter::Matter as EngineMethod,
+    havok::Havok as EngineMethod,
+    oimo::Oimo as EngineMethod,
+    oimo_symplectic::OimoSymplectic as EngineMethod,
+    nape::Nape as EngineMethod,
+    phaser_arcade::PhaserArcade as EngineMethod,
+    excalibur::Excalibur as EngineMethod,
+    mujoco_discrete::MujocoDiscrete as EngineMethod,
     held_force::HeldForce as EngineMethod,
     gyro_off::GyroOff as Gyro,
     gyro_explicit::GyroExplicit as Gyro,

@@ -4,7 +4,7 @@ use super::joint_mode::JointQuantity::{Damping, Stiffness};
 use super::prelude::*;
 use crate::system::EngineSettings;
 
-const MODES: [JointMode; 3] = [
+const MODES: [JointMode; 5] = [
     si_mode("joint", "<joint type=\"slide\" stiffness=\"{stiffness}\" damping=\"{damping}\"/>"),
     mode(
         "actuator",
@@ -21,11 +21,24 @@ const MODES: [JointMode; 3] = [
             "<option integrator=\"Euler\"/>\n<position joint=\"slide\" kp=\"{kp}\" kv=\"{kv}\"/>",
         )
     },
+    si_mode(
+        "prismatic-spring",
+        "joint = plant.AddJoint(PrismaticJoint(name, parent, child, axis, damping={damping}))\nplant.AddForceElement(PrismaticSpring(joint, 0.0, {stiffness}))",
+    )
+    .of("engine-drake"),
+    mode(
+        "newton-mujoco",
+        ("target_ke", Stiffness),
+        ("target_kd", Damping),
+        "dof = newton.ModelBuilder.JointDofConfig(axis, target_ke={target_ke}, target_kd={target_kd})\nsolver = newton.solvers.SolverMuJoCo(model)",
+    )
+    .of("engine-newton-mujoco"),
 ];
 
 pub(super) const CARD: Method = Method {
     id: "engine-mujoco",
     name: "MuJoCo",
+    also: &["engine-drake", "engine-newton-mujoco"],
     about: "semi-implicit Euler with implicit damping, which drag is too; the same under its implicit integrators",
     stability_limit: Some(2.0),
     symplectic: true,

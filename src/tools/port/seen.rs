@@ -26,6 +26,20 @@ type Map = Matrix2<f64>;
 const ITERATIONS: u32 = 20;
 
 impl Setup {
+    /// Returns the id of the engine, or of the [other engine](JointMode::engine) that the mode is of.
+    pub fn engine_id(&self) -> &'static str {
+        self.mode.engine.unwrap_or(self.method.id)
+    }
+
+    /// Whether the engine goes by this id, which is the card's or that of another engine with the same map. An engine
+    /// without a mode of its own has those of the card.
+    pub fn is_of(&self, id: &str) -> bool {
+        let modes = self.method.engine.map_or(&[][..], |engine| engine.modes);
+        let is_known = id == self.method.id || self.method.also.contains(&id);
+        let own = modes.iter().find_map(|mode| mode.engine.filter(|engine| *engine == id));
+        is_known && self.mode.engine == own
+    }
+
     /// Returns the code for these values, with the substeps unless they are the engine's default.
     pub fn code(&self, values: [f64; 2]) -> String {
         let &Self { method, mode, tick_hz, substeps } = self;
@@ -48,7 +62,7 @@ impl Setup {
     /// slowest motions.
     fn invariants(&self, joint: [f64; 2]) -> Option<[f64; 2]> {
         let has_memory = self.method.restart.is_some();
-        let maps = self.maps(joint, if has_memory { 3 } else { 1 })?;
+        let maps = self.maps(self.mode.possible(joint), if has_memory { 3 } else { 1 })?;
         match maps[..] {
             [once] => Some([once.trace(), once.determinant()]),
             [once, twice, thrice] => with_memory(&once, &twice, &thrice),

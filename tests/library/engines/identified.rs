@@ -38,6 +38,7 @@ fn names(found: &Identification, log: &Log) -> bool {
         "mujoco-Euler-actuator" => {
             all.any(|candidate| candidate.spring_label() == Some("actuator-euler"))
         }
+        "havok-limit" => all.any(|candidate| candidate.spring_label() == Some("limit")),
         _ => all.any(|candidate| candidate.method == log.method()),
     }
 }

@@ -125,19 +125,31 @@ impl Log {
             "rapier2d" | "rapier3d" => "engine-rapier",
             "avian" => "engine-avian",
             "avian-motor" => "engine-avian-motor",
-            "jolt" | "jolt-slider" => "engine-jolt",
+            "jolt" | "jolt-slider" | "crashcat" => "engine-jolt",
             "physx-pgs" | "physx-pgs-acc" | "physx-pgs-distance" => "engine-physx",
             "physx-tgs" => "engine-physx-tgs",
             "physx-tgs-56" => "engine-physx-tgs-56",
             "bullet" => "engine-bullet",
             "pybullet-multibody" => "engine-pybullet",
             "chipmunk" => "engine-chipmunk",
-            "mujoco-Euler" | "mujoco-implicitfast" | "mujoco-implicitfast-actuator" => {
-                "engine-mujoco"
-            }
+            "mujoco-Euler"
+            | "mujoco-implicitfast"
+            | "mujoco-implicitfast-actuator"
+            | "drake"
+            | "newton-mujoco" => "engine-mujoco",
             "mujoco-RK4" => "engine-mujoco-rk4",
-            // Without the limits of its spring, and with an actuator in place of a joint, all is explicit.
-            "bullet-unlimited" | "mujoco-Euler-actuator" => "semi-implicit-euler",
+            "mujoco-discrete" | "newton-vbd" | "newton-kamino" => "engine-mujoco-discrete",
+            "planck" | "box2d-wasm" => "engine-box2d-2",
+            "cannon" | "p2" | "newton-featherstone" | "newton-semi-implicit" => "engine-cannon",
+            "matter" => "engine-matter",
+            "havok" => "engine-havok",
+            "oimophysics-symplectic" => "engine-oimo-symplectic",
+            "oimophysics" => "engine-oimo",
+            "nape" => "engine-nape",
+            "phaser-arcade" => "engine-phaser-arcade",
+            "excalibur" => "engine-excalibur",
+            // Without the limits of its spring, with an actuator in place of a joint, or at a limit, all is explicit.
+            "bullet-unlimited" | "mujoco-Euler-actuator" | "havok-limit" => "semi-implicit-euler",
             other => panic!("no card for {other}"),
         };
         method(id).expect("a method of the table")

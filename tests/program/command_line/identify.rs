@@ -15,7 +15,7 @@ fn a_log_identifies_its_engine_and_the_visible_motion() {
     let text = stdout_of(&format!("identify {LOG} {BODY}"));
     assert!(
         text.starts_with(
-            "made by engine-box2d ×4 or engine-box3d ×4 (the same on this body), residual "
+            "moves as engine-box2d ×4 or engine-box3d ×4 do, or code with the same step, residual "
         ),
         "{text}"
     );
@@ -52,7 +52,7 @@ fn a_log_may_have_times_for_ticks_and_other_column_names() {
     let named = "--t-column time --x-column pos.x --v-column vel.x";
     let output = run_in(folder.path(), &format!("identify log.csv {BODY} {named}"));
     let said = String::from_utf8(output.stdout).unwrap();
-    assert!(said.starts_with("made by engine-box2d ×4"), "{said}");
+    assert!(said.starts_with("moves as engine-box2d ×4"), "{said}");
 }
 
 #[test]
@@ -441,7 +441,7 @@ fn a_log_is_read_in_any_form_that_its_rows_tell() {
         assert!(told.contains(read) && told.contains(" 60.0"), "{first}: {told}");
         assert!(said.contains("0.71"), "{first}: {said}");
         // Milliseconds of a day make uneven rows, which step alike.
-        assert!(said.starts_with("made by"), "{first}: {said}");
+        assert!(said.starts_with("moves as"), "{first}: {said}");
     }
 }
 
@@ -453,7 +453,7 @@ fn rows_are_taken_by_number_time_and_cell_and_said() {
     };
     let log = format!("time,body,x,v,other\n{}", rows_of(300, row));
     let (said, told) = read_as(&log, &format!("{SPRING} --where body=a"));
-    assert!(said.starts_with("made by"), "{said}");
+    assert!(said.starts_with("moves as"), "{said}");
     assert!(
         told.contains("rows 1 to 599 of 600") && told.contains("left out: body, other"),
         "{told}"
@@ -486,13 +486,13 @@ fn rows_that_step_alike_are_ticks_whatever_their_times() {
     let late = |n: u32| f64::from(if n > 60 { n + 2 } else { n }) / 60.0;
     let log = format!("t,x,v\n{}", rows_of(200, |n, x, v| format!("{:.6},{x:?},{v:?}\n", late(n))));
     let (said, told) = read_as(&log, SPRING);
-    assert!(said.starts_with("made by"), "{said} {told}");
+    assert!(said.starts_with("moves as"), "{said} {told}");
     assert!(said.contains("step alike whatever their times (row 62 is 33.3 ms late)"), "{said}");
     assert!(said.contains("a player sees: 0.7124 Hz"), "{said}");
     let twice = |n: u32| f64::from(n.max(1) - 1) / 60.0;
     let log = format!("t,x,v\n{}", rows_of(200, |n, x, v| format!("{:?},{x:?},{v:?}\n", twice(n))));
     let (said, told) = read_as(&log, &format!("{SPRING} --tick-hz 60"));
-    assert!(said.starts_with("made by"), "{said} {told}");
+    assert!(said.starts_with("moves as"), "{said} {told}");
     assert!(said.contains("(rows 1 and 2 are both at 0 s)"), "{said}");
     // A row that the logger lost is lost: the rows do not step alike.
     let lost = rows_of(200, |n, x, v| match n {
@@ -500,7 +500,7 @@ fn rows_that_step_alike_are_ticks_whatever_their_times() {
         n => format!("{:?},{x:?},{v:?}\n", f64::from(n) / 60.0),
     });
     let (said, _) = read_as(&format!("t,x,v\n{lost}"), SPRING);
-    assert!(said.starts_with("made by") && !said.contains("step alike"), "{said}");
+    assert!(said.starts_with("moves as") && !said.contains("step alike"), "{said}");
 }
 
 #[test]
@@ -586,7 +586,7 @@ fn each_coordinate_of_a_log_is_answered() {
 fn a_log_of_a_spin_in_space_identifies_its_step_with_the_moments() {
     const LOG: &str = "identify tests/data/engines/rapier3d__tumble_a_60hz_n4.csv --tick-hz 60";
     let text = stdout_of(&format!("{LOG} --moments 1,2,3"));
-    assert!(text.starts_with("made by gyro-rescaled ×4 or engine-rapier ×4 "), "{text}");
+    assert!(text.starts_with("moves as gyro-rescaled ×4: as engine-rapier ×4 does"), "{text}");
     let json = stdout_of(&format!("{LOG} --moments 2,4,6 --format json"));
     let found: Value = serde_json::from_str(&json).unwrap();
     assert_eq!([&found["word"], &found["best"]], ["identified", "gyro-rescaled"], "{json}");

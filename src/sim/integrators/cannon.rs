@@ -1,0 +1,71 @@
+//! Cannon-es and p2-es, whose springs are forces of the tick's start.
+
+use super::joint_mode::JointQuantity::{Damping, Stiffness};
+use super::prelude::*;
+
+const MODES: [JointMode; 4] = [
+    si_mode(
+        "spring",
+        "// A damping of 0 counts as 1: write 1e-9.\nconst spring = new CANNON.Spring(a, b, { stiffness: {stiffness}, damping: {damping} })\nworld.addEventListener('postStep', () => spring.applyForce())\nbody.linearDamping = 0",
+    ),
+    si_mode(
+        "linear-spring",
+        "world.addSpring(new p2.LinearSpring(a, b, { stiffness: {stiffness}, damping: {damping} }))\nbody.damping = 0",
+    )
+    .of("engine-p2"),
+    mode(
+        "newton-featherstone",
+        ("target_ke", Stiffness),
+        ("target_kd", Damping),
+        "dof = newton.ModelBuilder.JointDofConfig(axis, target_ke={target_ke}, target_kd={target_kd})\nsolver = newton.solvers.SolverFeatherstone(model)",
+    )
+    .of("engine-newton-featherstone"),
+    mode(
+        "newton-semi-implicit",
+        ("target_ke", Stiffness),
+        ("target_kd", Damping),
+        "dof = newton.ModelBuilder.JointDofConfig(axis, target_ke={target_ke}, target_kd={target_kd})\nsolver = newton.solvers.SolverSemiImplicit(model)",
+    )
+    .of("engine-newton-semi-implicit"),
+];
+
+pub(super) const CARD: Method = Method {
+    id: "engine-cannon",
+    name: "cannon-es",
+    also: &["engine-p2", "engine-newton-featherstone", "engine-newton-semi-implicit"],
+    about: "semi-implicit Euler, whose drag spares the force; cannon-es takes a spring's damping of 0 as 1, and p2-es keeps \
+            its numbers in single precision",
+    stability_limit: Some(2.0),
+    symplectic: true,
+    engine: Some(Engine {
+        tick_hz: 60,
+        damping_ratio: Some(0.0),
+        substeps: Substeps::Ticks(
+            "for (let i = 0; i < {n}; i++) world.step(dt / {n}) // step {n} times with dt / {n}",
+        ),
+        bounce: None,
+        free_spin: None,
+        version: "0.20.0, and of p2-es 1.2.3 and Newton 1.8.0",
+        logged: Some("2026-11-27"),
+        modes: &MODES,
+    }),
+    source: "runs of cannon-es 0.20.0 and p2-es 1.2.3: Spring, linearDamping; Newton 1.8.0, which has no drag",
+    formula: &["a = f − K x − c v", "v′ = v e^(−C H) + H a, x′ = x + H v′"],
+    ..ENGINE
+};
+
+/// cannon-es, whose tick follows the [formula](Method::formula) on its card.
+#[derive(Clone)]
+pub struct Cannon;
+
+impl EngineRule for Cannon {
+    fn tick<V: Vector>(tick: EngineTick<'_, V>, q: &mut V, v: &mut V) {
+        let (h, set) = (tick.length, tick.settings);
+        let kept = libm::exp(-set.drag * h);
+        each(tick.force, q, v, |x, v, f| {
+            let a = f - set.stiffness * *x - set.damping * *v;
+            *v = *v * kept + h * a;
+            *x += h * *v;
+        });
+    }
+}
