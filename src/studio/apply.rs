@@ -62,9 +62,12 @@ impl Studio {
         let Self { deck, viewer, loops } = self;
         match (command, loops) {
             (Command::View(command), _) => return self.carry_out_on_view(command),
-            (Command::Ask(DriverRequest::Record | DriverRequest::CopyLink), Some(loops)) => {
-                refuse_in_loop_lab(viewer, loops);
-            }
+            (
+                Command::Ask(
+                    DriverRequest::Record | DriverRequest::Report | DriverRequest::CopyLink,
+                ),
+                Some(loops),
+            ) => refuse_in_loop_lab(viewer, loops),
             (Command::Ask(request), _) => return if_copyable(deck, viewer, request),
             (Command::Run(command), None) => carry_out_on_run(deck, viewer, command),
             (Command::Run(_), Some(loops)) => refuse_in_loop_lab(viewer, loops),

@@ -28,6 +28,7 @@ mod mutations;
 mod own_methods;
 mod port;
 mod recordings;
+mod report;
 mod rule;
 mod schema;
 mod show;
