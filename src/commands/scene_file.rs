@@ -103,8 +103,8 @@ pub(super) fn is_built_in(path: &Path) -> bool {
     built_in(path).is_some()
 }
 
-/// Whether `path` looks like a scene: it ends in .toml, .step or .png, names a built-in scene, or is a folder or the manifest
-/// of a capture.
+/// Whether `path` looks like a scene: it ends in .toml, .step or .png, names a built-in scene, or is a folder or the
+/// manifest of a capture.
 pub(super) fn is_name(path: &Path) -> bool {
     is_built_in(path)
         || is_step(path)

@@ -97,8 +97,8 @@ impl StartSettings {
         true
     }
 
-    /// Replaces the scene by its changed form, with lanes of the same methods by id. The rate of the new scene applies if
-    /// nobody has chosen a rate.
+    /// Replaces the scene by its changed form, with lanes of the same methods by id. The rate of the new scene applies
+    /// if nobody has chosen a rate.
     pub fn reload(&mut self, scene: Scene) {
         if self.tick_hz == self.scene.tick_hz {
             self.tick_hz = scene.tick_hz;
