@@ -135,9 +135,9 @@ pub fn reload_own_method(studio: &mut Studio, lane: LaneSpec) {
     if !studio.entries().iter().any(|entry| entry.method == method) {
         return;
     }
-    let about = format!("{}: {}", method.id, method.about);
     if tick > MAX_RERUN || !is_race {
-        return studio.viewer.set_notice(format!("{about}; reloaded from the start"));
+        let told = format!("{}: reloaded from the start; {}", method.id, method.about);
+        return studio.viewer.set_notice(told);
     }
     let Studio { deck, viewer, .. } = studio;
     let mut actions = actions.drain(..).peekable();
@@ -152,7 +152,8 @@ pub fn reload_own_method(studio: &mut Studio, lane: LaneSpec) {
         make_tick(deck, viewer, &mut ());
     }
     deck.run.show_present();
-    viewer.set_notice(format!("{about}; reloaded, the run repeated to tick {tick}"));
+    let (id, about) = (method.id, method.about);
+    viewer.set_notice(format!("{id}: reloaded, the run repeated to tick {tick}; {about}"));
 }
 
 /// Whether a person's own method with this id is in the open scene.

@@ -157,7 +157,10 @@ fn changed_lines_of_a_method_leave_the_other_lanes_where_they_are() {
     let changed: Vec<_> = before.iter().zip(&after).filter(|(a, b)| a != b).collect();
     assert!(changed.len() == 1 && changed[0].0.0 == "mine", "{changed:?}");
     let notice = studio.viewer.notice.as_deref().unwrap();
-    assert!(notice.ends_with("reloaded, the run repeated to tick 60"), "{notice}");
+    assert!(
+        notice.starts_with("mine: reloaded, the run repeated to tick 60; order 1.00"),
+        "{notice}"
+    );
 }
 
 #[test]
