@@ -111,7 +111,7 @@ pub fn run(
         occluded: false,
         minimised: false,
         title: String::new(),
-        screenshot: false,
+        picture: None,
         started: Instant::now(),
         is_shown: false,
         interrupted: false,
@@ -150,7 +150,8 @@ struct App {
     occluded: bool,
     minimised: bool,
     title: String,
-    screenshot: bool,
+    /// The picture to save with the next frame, a screenshot or a report.
+    picture: Option<DriverRequest>,
     /// Zero point of the frames' time.
     started: Instant,
     /// Whether any frame was shown.
@@ -169,11 +170,14 @@ impl App {
             return self.wait_for_event(event_loop);
         }
         let Some(canvas) = &mut self.canvas else { return };
-        if std::mem::take(&mut self.screenshot) {
+        if let Some(request) = self.picture.take() {
             let size = canvas.window.inner_size();
             let scale = canvas.window.scale_factor() as f32;
-            let notice =
-                export::save_screenshot([size.width, size.height], scale, &self.frames.studio);
+            let (size_px, studio) = ([size.width, size.height], &self.frames.studio);
+            let notice = match request {
+                DriverRequest::Report => export::save_report(size_px, scale, studio),
+                _ => export::save_screenshot(size_px, scale, studio),
+            };
             self.frames.studio.viewer.set_notice(notice);
             self.stand_still();
         }
@@ -194,7 +198,7 @@ impl App {
                     || self.recording.as_ref()?.time_to_next_save(&self.frames.studio, now);
                 let after = match due_ns {
                     0 => Duration::ZERO,
-                    _ if self.screenshot || waits_for_field => Duration::ZERO,
+                    _ if self.picture.is_some() || waits_for_field => Duration::ZERO,
                     due_ns => Duration::from_nanos(due_ns)
                         .min(repaint_after)
                         .min(recorded().unwrap_or(Duration::MAX)),
@@ -263,7 +267,7 @@ impl App {
     fn carry_out(&mut self, event_loop: &ActiveEventLoop, request: DriverRequest) {
         match request {
             DriverRequest::Quit => self.end(event_loop, Ok(())),
-            DriverRequest::Screenshot => self.screenshot = true,
+            DriverRequest::Screenshot | DriverRequest::Report => self.picture = Some(request),
             DriverRequest::Record => {
                 let notice = export::save_recording(&mut self.frames.studio);
                 self.frames.studio.viewer.set_notice(notice);

@@ -38,6 +38,8 @@ mod mcp;
 #[cfg(feature = "window")]
 mod play;
 mod port;
+#[cfg(feature = "view")]
+mod report;
 mod rule;
 mod show;
 mod sweep;
@@ -269,6 +271,8 @@ subcommands! {
     Play(PlayArgs) => play::run,
     #[cfg(feature = "view")]
     Capture(capture::CaptureArgs) => capture::run,
+    #[cfg(feature = "view")]
+    Report(report::ReportArgs) => report::run,
     Verify(verify::VerifyArgs) => verify::run,
     Trace(trace::TraceArgs) => trace::run,
     Advise(advise::AdviseArgs) => advise::run,

@@ -11,12 +11,13 @@ use super::own_file::is_step;
 
 use crate::loops::TraceCard;
 pub(super) use crate::regular_file::is_link;
-use crate::regular_file::{self, Unreadable};
+use crate::regular_file::{self, MAX_TABLE_BYTES, Unreadable};
 use crate::run::link::{self, Link};
 use crate::scene::{BuiltIn, MAX_FILE_BYTES, SCENES, Scene, SceneErrors, nearest};
 use crate::sim::TickRate;
 use crate::sim::integrators::Method;
 use crate::sim::law::StepText;
+use crate::studio::picture_note;
 use crate::tools::rule::rule_scene;
 
 /// Frame rate of the author of a rule, if nothing states it. It is the usual one of games.
@@ -102,11 +103,12 @@ pub(super) fn is_built_in(path: &Path) -> bool {
     built_in(path).is_some()
 }
 
-/// Whether `path` looks like a scene: it ends in .toml or .step, names a built-in scene, or is a folder or the manifest
-/// of a capture.
+/// Whether `path` looks like a scene: it ends in .toml, .step or .png, names a built-in scene, or is a folder or the
+/// manifest of a capture.
 pub(super) fn is_name(path: &Path) -> bool {
     is_built_in(path)
         || is_step(path)
+        || has_picture_ending(path)
         || path.extension().is_some_and(|ending| ending == "toml")
         || path.is_dir()
         || capture_at(path).is_some()
@@ -148,8 +150,18 @@ fn read(path: &Path) -> Result<Vec<u8>, Error> {
     if let Some(written) = path.to_str().filter(|_| is_link(path)) {
         return link::text(written).map(String::into_bytes).map_err(Error::mistake);
     }
-    regular_file::read(path, MAX_FILE_BYTES).map_err(|error| {
-        let shown = brief(path);
+    let shown = brief(path);
+    let limit = if has_picture_ending(path) { MAX_TABLE_BYTES } else { MAX_FILE_BYTES };
+    let read = regular_file::read(path, limit);
+    if let Some(picture) = read.as_deref().ok().filter(|bytes| picture_note::is_picture(bytes)) {
+        let recording = picture_note::recording_in(picture).map(|text| text.as_bytes().to_vec());
+        return recording.ok_or_else(|| {
+            Error::mistake(format!(
+                "{shown} is a picture without a run; `regatta report`, and Shift P in the window, make one with its run"
+            ))
+        });
+    }
+    read.map_err(|error| {
         Error::mistake(match error {
             Unreadable::Directory => {
                 format!("{shown} is a directory without {FILE_NAME}; give a scene file, or the directory of a capture")
@@ -165,6 +177,11 @@ fn read(path: &Path) -> Result<Vec<u8>, Error> {
             error => format!("cannot read the scene file {shown}: {error}"),
         })
     })
+}
+
+/// Whether `path` has the ending of a picture, which may be a report.
+pub(super) fn has_picture_ending(path: &Path) -> bool {
+    path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("png"))
 }
 
 fn remedy(path: &Path) -> String {

@@ -47,8 +47,8 @@ Examples:
 #[derive(Debug, Args)]
 #[command(after_long_help = flowing(EXAMPLES))]
 pub(super) struct VerifyArgs {
-    /// The directory that `regatta capture` filled, or a scene file with checks
-    #[arg(value_name = "DIR|FILE.toml")]
+    /// The directory that `regatta capture` filled, a scene file with checks, or a report
+    #[arg(value_name = "DIR|FILE.toml|FILE.png")]
     dir: PathBuf,
 
     /// Judge only the physics

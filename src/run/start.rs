@@ -100,6 +100,20 @@ impl StartSettings {
         true
     }
 
+    /// Replaces the scene by its changed form, with lanes of the same methods by id. The rate of the new scene applies
+    /// if nobody has chosen a rate.
+    pub fn reload(&mut self, scene: Scene) {
+        if self.tick_hz == self.scene.tick_hz {
+            self.tick_hz = scene.tick_hz;
+        }
+        for spec in self.list.iter_mut().chain(self.given.iter_mut().map(|(_, spec)| spec)) {
+            let changed = scene.own_methods.iter().find(|own| own.id == spec.method.id);
+            spec.method = changed.copied().unwrap_or(spec.method);
+        }
+        self.opened = scene.into();
+        self.scene = Arc::clone(&self.opened);
+    }
+
     /// Leaves only the methods with these ids in the race. The first is also the solo method.
     pub fn race_only(&mut self, ids: &[&str]) {
         let listed = |id: &&str| self.list.iter().position(|spec| spec.method.id == *id);

@@ -179,10 +179,22 @@ impl EngineSettings {
         force: &mut V,
     ) -> Self {
         let mut settings = Self::NONE;
-        if !system.query(t, Query::Engine { state, settings: &mut settings, force }) {
+        if !settings.ask(system, t, state, force) {
             system.acceleration(t, &state.q, &state.v, force);
         }
         settings
+    }
+
+    /// Writes the settings that `system` gives, and the remaining force to `force`. Returns whether it gives any.
+    #[inline]
+    pub(crate) fn ask<V: Elementwise>(
+        &mut self,
+        system: &(impl System<Vector = V> + ?Sized),
+        t: f64,
+        state: &State<V>,
+        force: &mut V,
+    ) -> bool {
+        system.query(t, Query::Engine { state, settings: self, force })
     }
 
     /// Whether there is a joint.

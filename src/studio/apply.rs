@@ -63,9 +63,10 @@ impl Studio {
         }
         match command {
             Command::View(command) => return self.carry_out_on_view(command),
-            Command::Run(_) | Command::Ask(DriverRequest::Record | DriverRequest::CopyLink)
-                if self.loops.is_some() =>
-            {
+            Command::Run(_)
+            | Command::Ask(
+                DriverRequest::Record | DriverRequest::Report | DriverRequest::CopyLink,
+            ) if self.loops.is_some() => {
                 refuse_in_loop_lab(self);
             }
             Command::Ask(request) => return if_copyable(self, request),

@@ -156,6 +156,8 @@ pub enum DriverRequest {
     Screenshot,
     /// Save the run to a file.
     Record,
+    /// Save a screenshot that carries the recording of the run.
+    Report,
     /// Copy the link to the run to the clipboard.
     CopyLink,
     /// Copy the instrument's values to the clipboard.

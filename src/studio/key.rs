@@ -220,6 +220,8 @@ pub static KEYS: &[Binding] = keys! {
         Sign('e') => Run(RunCommand::ToggleInspector);
     once "P, F12" "screenshot; the file's name is shown":
         Sign('p') => Ask(DriverRequest::Screenshot), Function(12) => Ask(DriverRequest::Screenshot);
+    once "Shift P" "report: a picture with the run in it, which the program opens and checks" or "report: save the picture and the run":
+        ShiftSign('p') => Ask(DriverRequest::Report);
     once "F5, Ctrl S" "save the run as a scene file; its name is shown":
         Function(5) => Ask(DriverRequest::Record), ControlSign('s') => Ask(DriverRequest::Record);
     once "Ctrl L" "copy the run as a link, which `regatta play` opens":

@@ -127,8 +127,9 @@ pub use my_spring::MySpring;
 pub use notice::Notice;
 pub use opening::{
     MANY_LANES, described_spring, file_is_back, file_is_gone, lineup, list_as_file,
-    open_advised_spring, open_file, race_own_method, refuse_typed_path, reload_failed, reload_file,
-    show_clouds_of_scene, show_comparison, show_mistakes,
+    open_advised_spring, open_file, race_own_method, races_own_method, refuse_typed_path,
+    reload_failed, reload_file, reload_own_method, show_clouds_of_scene, show_comparison,
+    show_mistakes,
 };
 pub use pace::{LiveFrame, LiveLoop, PaceMeter};
 pub use run_before::RunBefore;

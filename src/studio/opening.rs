@@ -6,6 +6,7 @@
 use std::path::Path;
 
 use super::Studio;
+use super::acting::act;
 use super::command::RunCommand;
 use super::compared::Compared;
 use super::deck::Deck;
@@ -16,10 +17,11 @@ use super::restarting::{Jump, follow, is_by_hand, restart};
 use super::step::Step;
 use super::viewer::Dialog;
 use crate::run::diff::Comparison;
-use crate::run::race::Mode;
+use crate::run::race::{Author, Mode};
 use crate::run::{Run, StartSettings};
-use crate::scene::{LaneSpec, Scene, SceneErrors, ShownError};
+use crate::scene::{Action, LaneSpec, Scene, SceneErrors, ShownError};
 use crate::sim::TickRate;
+use crate::sim::bodies::TakesEffect;
 use crate::sim::integrators::Method;
 
 /// Name that a custom spring has on the list of scenes.
@@ -45,14 +47,41 @@ pub fn lineup(
     (mode, methods.first().filter(|_| methods.len() < MANY_LANES).copied())
 }
 
-/// Whether a run of one scene can continue in the other one. It can if both scenes have equal lanes, and bodies of the
-/// same kinds.
+/// Whether the states of one scene's run fit the other scene: both have lanes of the same methods by id, and bodies of
+/// the same kinds.
 fn is_alike(a: &Scene, b: &Scene) -> bool {
     let kinds = |scene: &Scene| -> Vec<_> {
         let bodies = scene.bodies.iter();
         bodies.map(|body| (body.kind.id, body.kind.coordinates(&body.values).len())).collect()
     };
-    a.lanes == b.lanes && kinds(a) == kinds(b)
+    let lanes = |scene: &Scene| -> Vec<_> {
+        let lanes = scene.lanes.iter();
+        lanes
+            .map(|lane| (lane.method.id, LaneSpec { method: a.lanes[0].method, ..*lane }))
+            .collect()
+    };
+    lanes(a) == lanes(b) && kinds(a) == kinds(b)
+}
+
+/// Returns the actions that turn a run of one scene, in any state, into a run of the other scene. `None` if no actions
+/// do, because the equations, the lines of a method or the script differ.
+fn actions_between(before: &Scene, after: &Scene) -> Option<Vec<Action>> {
+    let same_kinds = before
+        .bodies
+        .iter()
+        .zip(&after.bodies)
+        .all(|(a, b)| a.kind == b.kind && a.values.len() == b.values.len());
+    if !same_kinds || before.lanes != after.lanes || before.script != after.script {
+        return None;
+    }
+    let bodies = before.bodies.iter().zip(&after.bodies).enumerate();
+    let set = bodies.flat_map(|(body, (a, b))| {
+        let values = a.values.iter().zip(&b.values).enumerate();
+        let changed = values.filter(|(_, (before, after))| before != after);
+        changed.map(move |(parameter, (_, &value))| Action::Set { body, parameter, value })
+    });
+    let rate = (before.tick_hz != after.tick_hz).then_some(Action::TickHz(after.tick_hz));
+    Some(set.chain(rate).collect())
 }
 
 /// Puts the open scene on the list as the file at `path`.
@@ -96,6 +125,44 @@ pub(super) fn open_spring(studio: &mut Studio) {
     open_described(studio, spring.advised_scene(tick_hz));
 }
 
+/// Races the changed lines of a person's own method in place of the earlier ones, if those are in the open scene. The
+/// run is repeated to the present tick with the actions by hand, so that all other lanes keep their states.
+pub fn reload_own_method(studio: &mut Studio, lane: LaneSpec) {
+    let (method, race) = (lane.method, studio.race());
+    let (tick, is_race) = (race.tick(), race.mode() == Mode::Race);
+    let by_hand = race.journal().rows()[..race.done()].iter();
+    let by_hand = by_hand.filter(|row| row.author == Author::Person);
+    let mut actions: Vec<(u64, Action)> =
+        by_hand.map(|row| (row.tick, row.action.clone())).collect();
+    race_own_method(studio, lane);
+    if !studio.entries().iter().any(|entry| entry.method == method) {
+        return;
+    }
+    if tick > MAX_RERUN || !is_race {
+        let told = format!("{}: reloaded from the start; {}", method.id, method.about);
+        return studio.viewer.set_notice(told);
+    }
+    let mut actions = actions.drain(..).peekable();
+    loop {
+        let now = studio.race().tick();
+        while let Some((_, action)) = actions.next_if(|(at, _)| *at <= now) {
+            act(studio, action);
+        }
+        if now >= tick {
+            break;
+        }
+        make_tick(studio, &mut ());
+    }
+    studio.deck.run.show_present();
+    let (id, about) = (method.id, method.about);
+    studio.viewer.set_notice(format!("{id}: reloaded, the run repeated to tick {tick}; {about}"));
+}
+
+/// Whether a person's own method with this id is in the open scene.
+pub fn races_own_method(studio: &Studio, id: &str) -> bool {
+    studio.scene().own_methods.iter().any(|own| own.id == id)
+}
+
 /// Returns the spring that a person has described, and its tick rate, which is that of the dialog or else the present
 /// one.
 pub fn described_spring(studio: &Studio) -> (MySpring, TickRate) {
@@ -135,43 +202,31 @@ pub(super) fn open_as(studio: &mut Studio, name: &str, scene: Scene, mode: Mode)
     studio.deck.running = true;
 }
 
-/// Replaces the scene of a changed file. If the scene is open and equal, its run continues. If it has the same lanes
-/// and kinds of bodies, the new scene runs to the present tick, unless that would take too long. Otherwise it starts at
-/// tick 0. A notice reports if the person's actions were left out.
+/// Replaces the scene of a changed file. If the scene is open, its run keeps its state: it goes on if actions make the
+/// change, such as another mass. Under other equations it is run again to the present tick, and every lane is put into
+/// the present state of the selected one. With other lanes, bodies or coordinates it starts at tick 0.
 pub fn reload_file(studio: &mut Studio, path: &Path, scene: Scene) {
     let is_open = studio.deck.scene_list.open_path() == Some(path);
-    let tick = studio.race().tick();
     let before = studio.deck.scene_list.open().map(|index| studio.deck.scene_list.scene(index));
-    let is_equal = before.as_ref().is_some_and(|before| before.to_toml() == scene.to_toml());
-    let keeps = before.is_some_and(|before| is_alike(&before, &scene));
-    let index = studio.deck.scene_list.add_or_replace(path, scene);
-    if !is_open {
-        return;
-    }
+    let index = studio.deck.scene_list.add_or_replace(path, scene.clone());
+    let Some(before) = before.filter(|_| is_open) else { return };
     let name = studio.deck.scene_name();
-    if is_equal {
+    if before.to_toml() == scene.to_toml() {
         studio.viewer.dialog.take_if(|dialog| matches!(dialog, Dialog::Mistakes { .. }));
         return studio.viewer.set_notice(format!("{name} saved; nothing that matters changed"));
     }
-    let is_by_hand = is_by_hand(&studio.deck.run);
-    let told = if !keeps {
+    let told = if !is_alike(&before, &scene) {
+        let is_by_hand = is_by_hand(&studio.deck.run);
+        let left_out = if is_by_hand { " (your kicks and edits left out)" } else { "" };
         studio.loops = None;
         open(studio, index);
-        "reloaded from the start, with other lanes or bodies".into()
-    } else if tick > MAX_RERUN {
-        run_again(studio, index, 0);
-        format!("reloaded from the start: tick {tick} is too far to rerun")
+        format!("reloaded from the start, with other lanes or bodies{left_out}")
+    } else if let Some(actions) = actions_between(&before, &scene) {
+        change_in_flight(studio, scene, actions)
     } else {
-        run_again(studio, index, tick);
-        format!("reloaded and rerun to tick {tick}")
+        run_again(studio, scene)
     };
-    let left_out = match (is_by_hand, keeps) {
-        (false, _) => "",
-        (true, true) => " (your kicks and edits left out; Ctrl Z: old run)",
-        // The undo stack is lost when another scene is opened.
-        (true, false) => " (your kicks and edits left out)",
-    };
-    studio.viewer.set_notice(format!("{name}: {told}{left_out}"));
+    studio.viewer.set_notice(format!("{name}: {told}"));
 }
 
 /// Shows why the scene at the typed path cannot be opened. `path` is the file at that path. The field for the path
@@ -239,24 +294,68 @@ pub fn reload_failed(studio: &mut Studio, path: &Path, report: Vec<ShownError>) 
     }
 }
 
-/// Runs the open scene, which has changed, to a tick again. `index` is its place on the list. The chosen methods, rate
-/// and display stay, but actions by hand are left out.
-fn run_again(studio: &mut Studio, index: usize, tick: u64) {
-    let scene = studio.deck.scene_list.scene(index);
-    restart(studio, Some("the change of the file"), |next| {
-        // The rate of the new scene applies if nobody has chosen a rate.
-        if next.tick_hz == next.scene.tick_hz {
-            next.tick_hz = scene.tick_hz;
-        }
-        next.opened = scene.clone().into();
-        next.scene = scene.into();
+/// Makes the open scene, which has changed, that of the next restart, and performs the changes that act at once.
+/// Returns a part of a notice.
+fn change_in_flight(studio: &mut Studio, scene: Scene, actions: Vec<Action>) -> String {
+    let chosen_rate = studio.deck.run.next().tick_hz != studio.deck.run.next().scene.tick_hz;
+    let waits = |action: &Action| {
+        matches!(action, Action::Set { body, parameter, .. }
+            if scene.bodies[*body].kind.parameters[*parameter].acts == TakesEffect::AtStart)
+    };
+    let actions = actions.into_iter().filter(|it| it.tick_hz().is_none() || !chosen_rate);
+    let (waiting, at_once): (Vec<_>, Vec<_>) = actions.partition(waits);
+    let words = |actions: &[Action]| -> String {
+        let words: Vec<_> = actions.iter().map(|action| action.in_words(&scene)).collect();
+        words.join(", ")
+    };
+    let mut told = format!("reloaded, state kept at tick {}", studio.deck.race().tick());
+    if !at_once.is_empty() {
+        told += &format!(": {}", words(&at_once));
+    }
+    if !waiting.is_empty() {
+        told += &format!("; from the next restart (Home): {}", words(&waiting));
+    }
+    studio.deck.set_start("the change of the file", |next| {
+        next.reload(scene);
+        true
     });
-    studio.deck.openings += 1;
-    studio.viewer.findings = None;
-    studio.viewer.dialog = None;
+    (studio.deck.openings, studio.viewer.findings, studio.viewer.dialog) =
+        (studio.deck.openings + 1, None, None);
+    at_once.into_iter().for_each(|action| act(studio, action));
+    studio.deck.run.show_present();
+    told
+}
+
+/// Runs the open scene, which has changed, to the present tick again, and puts every lane into the present state of the
+/// selected one. The chosen methods, rate and display stay. Returns a part of a notice.
+fn run_again(studio: &mut Studio, scene: Scene) -> String {
+    let (before, selected) = (studio.deck.race().tick(), studio.deck.selected());
+    let tick = if before > MAX_RERUN { 0 } else { before };
+    let placed = selected.lane.bodies().iter().enumerate().map(|(body, at)| Action::Place {
+        body,
+        q: at.stepper.q().into(),
+        v: at.stepper.v().into(),
+    });
+    let inputs = [
+        Action::Throttle(studio.deck.race().throttle()),
+        Action::Rudder(studio.deck.race().rudder()),
+    ];
+    let actions: Vec<Action> = placed.chain(inputs).collect();
+    let of_all = match studio.deck.mode() {
+        Mode::Solo => String::new(),
+        Mode::Race => format!(", every lane in that of {}", selected.spec.method.name),
+    };
+    restart(studio, Some("the change of the file"), |next| next.reload(scene));
+    (studio.deck.openings, studio.viewer.findings, studio.viewer.dialog) =
+        (studio.deck.openings + 1, None, None);
     (0..tick).for_each(|_| make_tick(studio, &mut ()));
+    actions.into_iter().for_each(|action| act(studio, action));
     studio.deck.running &= !studio.deck.comes_to_rest(studio.viewer.motion());
     studio.deck.run.show_present();
+    match tick {
+        _ if tick == before => format!("reloaded, state kept at tick {tick}{of_all}"),
+        _ => format!("reloaded at time 0, state kept{of_all}: tick {before} is too far to rerun"),
+    }
 }
 
 /// Shows the clouds with which the scene opens, if any, in place of the stage.

@@ -2,9 +2,9 @@
 
 use image::codecs::png::{CompressionType, FilterType, PngEncoder};
 use image::{ExtendedColorType, ImageEncoder};
-use png::text_metadata::{EncodableTextChunk, TEXtChunk};
+use png::text_metadata::{EncodableTextChunk, ITXtChunk, TEXtChunk};
 
-use crate::studio::picture_note::SOFTWARE;
+use crate::studio::picture_note::{RECORDING, SOFTWARE, reported};
 
 /// Length of the signature and the header, after which the note follows.
 const HEADER_BYTES: usize = 33;
@@ -26,6 +26,20 @@ pub fn encode([width, height]: [u32; 2], rgba: &[u8]) -> Vec<u8> {
         .write_image(rgba, width, height, ExtendedColorType::Rgba8)
         .expect("memory takes any picture");
     file.splice(HEADER_BYTES..HEADER_BYTES, note());
+    file
+}
+
+/// Encodes a picture as [`encode`] does, with the recording of the run that it shows. It is the report of the run.
+///
+/// # Panics
+/// As [`encode`].
+pub fn encode_report(size_px: [u32; 2], rgba: &[u8], recording: &str) -> Vec<u8> {
+    let mut file = encode(size_px, rgba);
+    let mut chunk = Vec::new();
+    let text = ITXtChunk::new(RECORDING, reported(recording));
+    text.encode(&mut chunk).expect("memory takes a chunk");
+    let place = HEADER_BYTES + note().len();
+    file.splice(place..place, chunk);
     file
 }
 
@@ -55,7 +69,7 @@ fn note() -> Vec<u8> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::studio::picture_note::{NOTED_WITHIN, is_encoded_here};
+    use crate::studio::picture_note::{NOTED_WITHIN, is_encoded_here, recording_in};
 
     #[test]
     fn a_picture_survives_to_the_bit_with_its_origin() {
@@ -66,6 +80,16 @@ mod tests {
         assert!(is_encoded_here(&file[..NOTED_WITHIN]));
         assert!(is_whole(&file) && !is_whole(b""));
         assert!(!is_whole(&file[..file.len() - 1]) && !is_whole(&[&file[..], b"x"].concat()));
+        assert_eq!(recording_in(&file), None);
+        let report = encode_report([5, 3], &rgba, "title = \"Föhn\"\n");
+        assert_eq!(image::load_from_memory(&report).unwrap().into_rgba8().into_raw(), rgba);
+        assert!(is_encoded_here(&report[..NOTED_WITHIN]) && is_whole(&report));
+        let (heading, recording) = recording_in(&report).unwrap().split_once('\n').unwrap();
+        assert!(heading.starts_with("# A report of regatta 0."), "{heading}");
+        assert_eq!(recording, "title = \"Föhn\"\n");
+        for end in 0..report.len() - file.len() {
+            assert_eq!(recording_in(&report[..end]), None);
+        }
         let mut other = std::io::Cursor::new(Vec::new());
         let picture = image::RgbaImage::from_raw(5, 3, rgba).unwrap();
         picture.write_to(&mut other, image::ImageFormat::Png).unwrap();

@@ -5,6 +5,7 @@ use std::path::Path;
 use js_sys::{Array, Uint8Array};
 use regatta::loops::trace_file;
 use regatta::scene::Scene;
+use regatta::studio::picture_note::recording_in;
 use regatta::studio::{
     instrument_file_name, open_file, open_own_loop, open_traces, read_own_loop, show_mistakes,
 };
@@ -104,6 +105,7 @@ impl Driver {
                     .set_notice(format!("{} runs beside the others: Shift S edits it", card.id));
             })
         } else {
+            let bytes = recording_in(bytes).map_or(bytes, str::as_bytes);
             let scene = Scene::from_bytes(name, bytes).map_err(Into::into);
             scene.map(|scene| open_file(studio, path, scene))
         };

@@ -57,6 +57,10 @@ impl Driver {
                 }
                 ToDo::Request(DriverRequest::Screenshot) => self.saves_picture = true,
                 ToDo::Request(DriverRequest::Record) => self.save_recording(),
+                ToDo::Request(DriverRequest::Report) => {
+                    self.saves_picture = true;
+                    self.save_recording();
+                }
                 ToDo::Request(DriverRequest::ExportInstrument) => self.save_instrument(),
                 ToDo::Request(request) => self.copy(request),
             }

@@ -8,10 +8,8 @@ use super::App;
 use super::opening::ReadFile;
 #[cfg(feature = "accessibility")]
 use super::screen_reader::{self, Request};
-use crate::scene::{LaneSpec, Scene, SceneErrors, ShownError};
-use crate::studio::{
-    Dialog, Found, file_is_back, file_is_gone, open_advised_spring, reload_failed, reload_file,
-};
+use crate::scene::{LaneSpec, Scene, SceneErrors};
+use crate::studio::{Dialog, Found, file_is_back, file_is_gone, open_advised_spring};
 
 /// An event from the program's own threads or from a screen reader.
 pub(super) enum Event {
@@ -32,8 +30,6 @@ pub(super) enum Event {
     NotRecorded(String),
     /// A requested file has been read.
     FileRead(ReadFile),
-    /// A watched scene file has changed; `read` is its new content.
-    FileChanged { path: PathBuf, read: Box<Result<(Scene, String), Vec<ShownError>>> },
     /// A watched scene file can no longer be read.
     FileGone(PathBuf),
     /// A missing scene file exists again, unchanged.
@@ -111,15 +107,6 @@ impl App {
             }
             Event::FileBack(path) => {
                 file_is_back(&mut self.frames.studio, &path);
-                self.request_redraw();
-            }
-            Event::FileChanged { path, read } => {
-                match *read {
-                    Ok((scene, _)) => reload_file(&mut self.frames.studio, &path, scene),
-                    Err(report) => reload_failed(&mut self.frames.studio, &path, report),
-                }
-                // Do not simulate the time that this took.
-                self.stand_still();
                 self.request_redraw();
             }
         }

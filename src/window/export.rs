@@ -48,7 +48,7 @@ fn save(studio: &Studio) -> String {
 /// Saves a picture and a table, and a drawing if the instrument's plots can be drawn.
 fn try_save(studio: &Studio) -> Result<Vec<PathBuf>, String> {
     let csv = instrument_csv(studio).ok_or("this instrument has no plots")?;
-    let png = picture(SIZE_PX, SCALE, Panels::Instrument, studio)?;
+    let png = picture(SIZE_PX, SCALE, Panels::Instrument, studio, None)?;
     let svg = instrument_svg(studio).map(String::into_bytes);
     let files = [("png", Some(png)), ("svg", svg), ("csv", Some(csv.concat().into_bytes()))];
     let name = instrument_file_name(studio);
@@ -71,22 +71,42 @@ pub(super) fn save_screenshot(size_px: [u32; 2], scale: f32, studio: &Studio) ->
 }
 
 fn screenshot(size_px: [u32; 2], scale: f32, studio: &Studio) -> Result<PathBuf, String> {
-    let picture = picture(size_px, scale, Panels::Shown, studio)?;
+    let picture = picture(size_px, scale, Panels::Shown, studio, None)?;
     write(&format!("{}.png", picture_file_name(studio)), &picture)
 }
 
-/// Draws the studio into a PNG file.
+/// Saves a screenshot that carries the recording of the run. Returns a notice with its name or the error.
+pub(super) fn save_report(size_px: [u32; 2], scale: f32, studio: &Studio) -> String {
+    let saved = || {
+        let recording = studio.deck.recording().map_err(|error| error.to_string())?;
+        let report = picture(size_px, scale, Panels::Shown, studio, Some(&recording))?;
+        write(&format!("{}-report.png", picture_file_name(studio)), &report)
+    };
+    match saved() {
+        Ok(path) => format!(
+            "Saved {0}, with the run in it. Attach it to an issue, or open it here",
+            path.display()
+        ),
+        Err(reason) => format!("no report: {reason}"),
+    }
+}
+
+/// Draws the studio into a PNG file, which carries the recording.
 fn picture(
     size_px: [u32; 2],
     scale: f32,
     shown: Panels,
     studio: &Studio,
+    recording: Option<&str>,
 ) -> Result<Vec<u8>, String> {
     let no_room = |error: FrameSizeError| error.to_string();
     let mut renderer = OffscreenRenderer::new(size_px, scale).map_err(no_room)?.with_panels(shown);
     let mut rgba = renderer.buffer().map_err(no_room)?;
     renderer.draw(studio, &mut rgba).map_err(|error| error.to_string())?;
-    Ok(png::encode(size_px, &rgba))
+    Ok(match recording {
+        Some(recording) => png::encode_report(size_px, &rgba, recording),
+        None => png::encode(size_px, &rgba),
+    })
 }
 
 /// Saves the run so far as a scene file under a new name. Returns a notice with the name or the error.

@@ -11,7 +11,8 @@ use crate::run::trace::{Made, last_tick};
 use crate::scene::{LaneSpec, MAX_FILE_BYTES, SCENES, Scene, ShownError, is_rule};
 use crate::studio::{
     SceneList, StageCommand, Studio, ViewCommand, open_file, open_own_loop, open_traces,
-    race_own_method, read_own_loop, refuse_typed_path, runs_beside, show_comparison, show_mistakes,
+    race_own_method, races_own_method, read_own_loop, refuse_typed_path, reload_failed,
+    reload_file, reload_own_method, runs_beside, show_comparison, show_mistakes,
 };
 
 /// Reads a scene file. Returns its scene and its text, or its mistakes as the command line would print them.
@@ -35,7 +36,7 @@ pub struct SceneFiles {
 pub(super) struct RequestedFile {
     path: PathBuf,
     is_typed: bool,
-    /// Whether the file is a loop that was opened before, and has changed.
+    /// Whether the file was opened before, and has changed.
     has_changed: bool,
     /// The run to compare the file with, if it is not to be opened.
     compared: Option<Box<Scene>>,
@@ -53,8 +54,8 @@ enum FileContent {
         text: String,
     },
     Traces(Vec<FrameTrace>),
-    /// A lane with a person's own method.
-    Lane(LaneSpec),
+    /// A lane with a person's own method, and its text.
+    Lane(LaneSpec, String),
     /// A person's own loop, and its text.
     Loop(&'static PolicyCard, String),
     /// The comparison with the run, and the recording.
@@ -86,9 +87,9 @@ impl RequestedFile {
         Some(Self { is_typed: true, ..Self::of(listed_path(studio, &from_home(&typed))) })
     }
 
-    /// The file of a loop that has changed; `None` for another file.
-    pub(super) fn changed_loop(path: &Path) -> Option<Self> {
-        has_ending(path, "loop").then(|| Self { has_changed: true, ..Self::of(path.to_owned()) })
+    /// The watched file at `path`, which has changed.
+    pub(super) fn changed(path: &Path) -> Self {
+        Self { has_changed: true, ..Self::of(path.to_owned()) }
     }
 
     /// Whether the path is a link to a run instead of a file.
@@ -124,9 +125,7 @@ impl RequestedFile {
 }
 
 /// Reads a file. A panic counts as a mistake of the file, so that the next file can be opened.
-pub(super) fn read_caught<T>(
-    read: impl FnOnce() -> Result<T, Vec<ShownError>>,
-) -> Result<T, Vec<ShownError>> {
+fn read_caught<T>(read: impl FnOnce() -> Result<T, Vec<ShownError>>) -> Result<T, Vec<ShownError>> {
     caught(read).unwrap_or_else(|sentence| Err(vec![format!("error: {sentence}").into()]))
 }
 
@@ -134,11 +133,11 @@ impl ReadFile {
     /// Path and text of the file, if it is a scene or a loop.
     pub(super) fn watched(&self) -> Option<(PathBuf, String)> {
         match &self.content {
-            Ok(FileContent::Scene { text, .. } | FileContent::Loop(_, text))
-                if !self.requested.is_link() =>
-            {
-                Some((self.requested.path.clone(), text.clone()))
-            }
+            Ok(
+                FileContent::Scene { text, .. }
+                | FileContent::Lane(_, text)
+                | FileContent::Loop(_, text),
+            ) if !self.requested.is_link() => Some((self.requested.path.clone(), text.clone())),
             _ => None,
         }
     }
@@ -148,9 +147,8 @@ impl ReadFile {
     pub(super) fn show(self, studio: &mut Studio) {
         let name = self.requested.is_link().then(|| "a link".into());
         let RequestedFile { path, is_typed, has_changed, .. } = self.requested;
-        // A changed loop that the lab no longer runs is not run again.
-        if has_changed && !runs_beside(studio, &stem(&path)) {
-            return;
+        if has_changed {
+            return reload(studio, &path, self.content);
         }
         let path = name.unwrap_or(path);
         match self.content {
@@ -161,7 +159,7 @@ impl ReadFile {
                     studio.apply(ViewCommand::CloseDialog);
                 }
             }
-            Ok(FileContent::Lane(lane)) => {
+            Ok(FileContent::Lane(lane, _)) => {
                 race_own_method(studio, lane);
                 if is_typed {
                     studio.apply(ViewCommand::CloseDialog);
@@ -181,6 +179,22 @@ impl ReadFile {
             Err(report) if is_typed => refuse_typed_path(studio, &path, report),
             Err(report) => show_mistakes(studio, &path, report),
         }
+    }
+}
+
+/// Shows a file that has changed since it was opened, if it is still in use.
+fn reload(studio: &mut Studio, path: &Path, content: Result<FileContent, Vec<ShownError>>) {
+    let id = stem(path);
+    let is_raced = has_ending(path, "step") && races_own_method(studio, &id);
+    match content {
+        Ok(FileContent::Scene { scene, .. }) => reload_file(studio, path, *scene),
+        Ok(FileContent::Lane(lane, _)) if is_raced => reload_own_method(studio, lane),
+        Ok(FileContent::Loop(card, _)) if runs_beside(studio, &id) => open_own_loop(studio, card),
+        Err(report) if is_raced || runs_beside(studio, &id) => {
+            show_mistakes(studio, path, report);
+        }
+        Err(report) => reload_failed(studio, path, report),
+        Ok(_) => {}
     }
 }
 
@@ -213,7 +227,8 @@ fn lines_in(path: &Path, read: &ReadScene) -> Result<FileContent, Vec<ShownError
     let lines = bytes_of(path, MAX_FILE_BYTES)?;
     if !is_rule(&lines) {
         let name = path.file_name().unwrap_or_default().to_string_lossy();
-        return LaneSpec::from_step(&name, &lines).map(FileContent::Lane).map_err(Vec::from);
+        let lane = LaneSpec::from_step(&name, &lines).map_err(Vec::from)?;
+        return Ok(FileContent::Lane(lane, String::from_utf8_lossy(&lines).into_owned()));
     }
     let held = scene_in(path, read)?;
     // The watch compares with the file, which holds the lines instead of the scene.
@@ -351,7 +366,7 @@ mod tests {
         let show = |studio: &mut Studio, lines: &str, has_changed: bool| {
             std::fs::write(&path, lines).unwrap();
             let requested = match has_changed {
-                true => RequestedFile::changed_loop(&path).unwrap(),
+                true => RequestedFile::changed(&path),
                 false => RequestedFile::dropped(studio, &path),
             };
             let found = requested.read(&read());
@@ -376,7 +391,6 @@ mod tests {
         show(&mut studio, "tick 1 of dt", true);
         assert!(studio.viewer.dialog().is_none() && !own(&studio).has_fixed_tick);
         assert_eq!(studio.viewer.notice.as_deref(), Some("mine: reloaded"));
-        assert!(RequestedFile::changed_loop(Path::new("mine.toml")).is_none());
     }
 
     #[test]

@@ -9,7 +9,7 @@ use std::time::{Duration, SystemTime};
 use winit::event_loop::EventLoopProxy;
 
 use super::Event;
-use super::opening::{ReadScene, RequestedFile, read_caught};
+use super::opening::{ReadScene, RequestedFile};
 use crate::regular_file::{self, Unreadable};
 use crate::scene::MAX_FILE_BYTES;
 
@@ -80,13 +80,9 @@ fn watch(
                     let path = file.path.clone();
                     let event = match file.check() {
                         FileCheck::Same => continue,
-                        FileCheck::Changed => match RequestedFile::changed_loop(&path) {
-                            Some(changed) => Event::FileRead(changed.read(read)),
-                            None => Event::FileChanged {
-                                read: read_caught(|| read(&path)).into(),
-                                path,
-                            },
-                        },
+                        FileCheck::Changed => {
+                            Event::FileRead(RequestedFile::changed(&path).read(read))
+                        }
                         FileCheck::Gone => Event::FileGone(path),
                         FileCheck::Back => Event::FileBack(path),
                     };

@@ -9,8 +9,10 @@ use regatta::run::Race;
 use regatta::scene::{Options, Scene};
 use regatta::sim::batch::{Batch, Ticks};
 use regatta::sim::bodies::Ship;
-use regatta::sim::integrators::{GENERAL_METHODS, StepFailure, integrator, method};
-use regatta::sim::{Clock, Solver, State, System, stepper};
+use regatta::sim::integrators::{
+    Family, GENERAL_METHODS, METHODS, Needs, StepFailure, integrator, method,
+};
+use regatta::sim::{Clock, Query, Solver, State, System, stepper};
 
 /// The message that `work` panics with.
 fn panic_of<T>(work: impl FnOnce() -> T + UnwindSafe) -> String {
@@ -116,6 +118,45 @@ fn every_method_refuses_a_non_finite_step_and_keeps_the_state() {
         let mut state = State { q: 1.0, v: 0.0 };
         assert_eq!(integrator(card, &state.q).step(&Spring, 0.0, -0.001, &mut state), Ok(()));
     }
+}
+
+/// A spring that tells an engine its stiffness if `.0`.
+#[derive(Clone, Copy)]
+struct Told(bool);
+
+impl System for Told {
+    type Vector = f64;
+    fn acceleration(&self, _t: f64, q: &f64, _v: &f64, a: &mut f64) {
+        *a = -400.0 * q;
+    }
+    fn query(&self, _t: f64, query: Query<'_, f64>) -> bool {
+        let Query::Engine { settings, force, .. } = query else { return false };
+        (settings.stiffness, *force) = (400.0, 0.0);
+        self.0
+    }
+}
+
+#[test]
+fn an_engine_by_its_id_refuses_a_body_that_tells_no_joint() {
+    let steps = |card, told| {
+        let mut state = State { q: 1.0, v: 0.0 };
+        integrator(card, &state.q).step(&Told(told), 0.0, 0.1, &mut state).map(|()| state.q)
+    };
+    let joints = METHODS.iter().filter(|card| {
+        card.family == Family::Engine && card.only.is_some_and(|only| only.needs == Needs::Engine)
+    });
+    let mut ends = Vec::new();
+    for card in joints {
+        let failure = steps(card, false).expect_err(card.id).to_string();
+        for part in ["asks for the joint", "answer `Query::Engine`", "return true"] {
+            assert!(failure.contains(part), "{}: {failure}", card.id);
+        }
+        ends.push(steps(card, true).expect(card.id).to_bits());
+    }
+    assert!(ends.len() > 10);
+    ends.sort_unstable();
+    ends.dedup();
+    assert!(ends.len() > 5, "the engines move a joint each in its way: {ends:?}");
 }
 
 /// Two masses on springs, whose acceleration is replaced by a vector of `.0` numbers.

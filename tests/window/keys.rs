@@ -55,6 +55,7 @@ pub(crate) fn every_key_performs_its_command_from_the_table() {
         let others = [
             Command::Ask(DriverRequest::Screenshot),
             Command::Ask(DriverRequest::Record),
+            Command::Ask(DriverRequest::Report),
             Command::Ask(DriverRequest::CopyLink),
             Command::View(ViewCommand::Copy),
             Command::Ask(DriverRequest::ExportInstrument),

@@ -108,7 +108,7 @@ pub(crate) fn a_deleted_file_is_reported_and_a_restored_one_is_reread() {
     desk.quit();
 }
 
-pub(crate) fn a_file_changed_on_disk_is_rerun_unless_it_is_broken() {
+pub(crate) fn a_file_changed_on_disk_is_taken_with_its_state_unless_it_is_broken() {
     let before = text("spring");
     let (folder, path) = file("mine.toml", before);
     let desk = Desk::open(&format!("--scene {}", path.display()));

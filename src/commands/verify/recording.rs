@@ -214,6 +214,11 @@ pub(super) fn bless(path: &Path) -> Result<(), Error> {
             "a link is not blessed; bless its recording, and print the link again",
         ));
     }
+    if scene_file::has_picture_ending(path) {
+        return Err(Error::mistake(
+            "a report is not blessed: it shows how the run was; make another by `regatta report`",
+        ));
+    }
     let (scene, text) = scene_file::load(path)?;
     let text = if scene.checks.is_empty() {
         let rows: String = checks_of(path, &scene)?.iter().map(Check::to_toml).collect();

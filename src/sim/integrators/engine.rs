@@ -41,6 +41,11 @@ impl<V> EngineTick<'_, V> {
     }
 }
 
+/// The reason why an engine by its id does not step a system that answers no engine query.
+const NO_JOINT: &str = "the engine asks for the joint, and the system does not tell it; let `System::query` answer \
+    `Query::Engine`: write stiffness, damping and drag per unit mass into `settings` (0 without a joint), and the rest \
+    of the acceleration into `force`, and return true";
+
 /// The tick of an engine.
 pub trait EngineRule: Carded + Clone + Send + Sync + 'static {
     /// Advances the coordinates `q` and the velocities `v` by a tick.
@@ -54,6 +59,8 @@ pub struct EngineMethod<V, R> {
     carried: Option<V>,
     /// K and c of the joint, if they override the body's.
     joint: Option<[f64; 2]>,
+    /// Whether a system must answer the engine query.
+    asks: bool,
     rule: PhantomData<R>,
 }
 
@@ -62,7 +69,7 @@ impl<S: System<Vector: Vector>, R: EngineRule> Integrator<S> for EngineMethod<S:
         let mut zero = like.clone();
         zero.components_mut().fill(0.0);
         let carried = R::CARD.restart.map(|_| zero.clone());
-        Self { force: zero, carried, joint: None, rule: PhantomData }
+        Self { force: zero, carried, joint: None, asks: false, rule: PhantomData }
     }
 
     #[inline]
@@ -80,8 +87,10 @@ impl<S: System<Vector: Vector>, R: EngineRule> Integrator<S> for EngineMethod<S:
     }
 
     fn set(&mut self, with: Override) {
-        if let Override::Joint(joint) = with {
-            self.joint = Some(joint);
+        match with {
+            Override::Joint(joint) => self.joint = Some(joint),
+            Override::EngineQuery => self.asks = true,
+            Override::Tolerance(_) => {}
         }
     }
 
@@ -113,7 +122,9 @@ impl<V: Vector, R: EngineRule> EngineMethod<V, R> {
         let mut settings = EngineSettings::NONE;
         match only.needs {
             Needs::Force => system.acceleration(t, &state.q, &state.v, force),
-            _ => settings = EngineSettings::of(system, t, state, force),
+            _ if settings.ask(system, t, state, force) => {}
+            Needs::Engine if self.asks => return Err(StepFailure::Refused { reason: NO_JOINT }),
+            _ => system.acceleration(t, &state.q, &state.v, force),
         }
         if only.needs == Needs::EngineWithoutJoint && settings.has_spring() {
             return Err(StepFailure::Refused { reason: only.reason });

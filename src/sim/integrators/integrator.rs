@@ -107,6 +107,8 @@ pub enum Override {
     Tolerance(Tolerance),
     /// The stiffness in 1/s² and the damping in 1/s, each per unit of mass, of a joint in an engine.
     Joint([f64; 2]),
+    /// An engine refuses a system that answers no [engine query](crate::Query::Engine), whose joint it would not see.
+    EngineQuery,
 }
 
 impl Override {

@@ -7,7 +7,7 @@
 //! `methods!`.
 
 use super::state::Vector;
-use super::system::{BodyClass, Counted, Coupling, System};
+use super::system::{BodyClass, Counted, Coupling, EngineSettings, Query, System};
 use custom_method::{CustomMethod, Unfit};
 use reset_on_change::ResetOnChange;
 
@@ -128,9 +128,29 @@ pub use spelling::{UnknownMethod, method_or_nearest, plain};
 /// It counts evaluations.
 pub type Problem<V> = Counted<Box<dyn System<Vector = V>>>;
 
-/// Returns this system as a problem, with its counter at zero.
+/// Returns this system as a problem, with its counter at zero. Without an answer to the engine query it has no joint.
 pub fn problem<S: System<Vector: Vector> + 'static>(system: S) -> Problem<S::Vector> {
-    Counted::new(Box::new(system))
+    struct Answering<S>(S);
+    impl<S: System> System for Answering<S> {
+        type Vector = S::Vector;
+        fn coupling(&self) -> Coupling {
+            self.0.coupling()
+        }
+        fn generation(&self) -> u64 {
+            self.0.generation()
+        }
+        fn acceleration(&self, t: f64, q: &S::Vector, v: &S::Vector, a: &mut S::Vector) {
+            self.0.acceleration(t, q, v, a);
+        }
+        fn query(&self, t: f64, query: Query<'_, S::Vector>) -> bool {
+            let Query::Engine { state, settings, force } = query else {
+                return self.0.query(t, query);
+            };
+            *settings = EngineSettings::of(&self.0, t, state, force);
+            true
+        }
+    }
+    Counted::new(Box::new(Answering(system)))
 }
 
 /// An integrator of systems of type `S`. Like all methods, it also steps every other system with the same vector.
@@ -398,8 +418,8 @@ pub fn method(id: &str) -> Option<&'static Method> {
 /// [generation](System::generation) of the forces is not that of the last step. A caller whose system has no generation
 /// must call [`Integrator::reset`] when the forces jump.
 ///
-/// An [engine](Family::Engine)'s method steps a system that answers no [engine query](crate::Query::Engine) as a
-/// force that the engine holds for a tick, without the engine's joint.
+/// An [engine](Family::Engine)'s method that has a joint refuses a system that answers no [engine
+/// query](crate::Query::Engine): it would hold the whole force for a tick, as every other engine does.
 ///
 /// A system that borrows, such as the level of a game, has no boxed integrator. It is stepped by the method's own type,
 /// which is two to six times as fast for a cheap step, and resets nothing by itself:
@@ -453,7 +473,9 @@ pub fn integrator_for<S: System<Vector: Vector> + 'static>(
     impl<S: System<Vector: Vector> + 'static> Construct<S> for Boxed<'_, S::Vector> {
         type Output = Box<dyn Integrator<S>>;
         fn of<I: MethodOf<S>>(self, new: impl FnOnce(&S::Vector) -> I) -> Self::Output {
-            Box::new(ResetOnChange::around(new(self.0), self.0))
+            let mut method = new(self.0);
+            Integrator::<S>::set(&mut method, Override::EngineQuery);
+            Box::new(ResetOnChange::around(method, self.0))
         }
     }
     construct::<S, _>(method, coupling, Boxed(like))

@@ -42,36 +42,125 @@ fn an_opened_file_stays_on_the_list_apart_from_built_in_scenes() {
 }
 
 #[test]
-fn a_changed_file_with_the_same_lanes_and_bodies_reruns_to_the_same_tick() {
+fn a_changed_mass_acts_in_flight_and_each_lane_keeps_its_state() {
     let before = text("spring");
     let after = before.replacen("mass_kg = ", "mass_kg = 1", 1);
     assert_ne!(before, after);
-    let mut old = studio(before);
-    old.apply(StageCommand::ToggleRace);
-    old.apply(StageCommand::Pick(2));
-    old.apply(ViewCommand::ZoomPan {
-        body: 0,
-        zoom_pan: crate::ZoomPan::default().zoomed(2.0, [0.0; 2]),
-    });
-    (0..50).for_each(|_| old.tick());
-    old.apply(RunCommand::Act(Action::Kick(1.0)));
+    let kicked = || {
+        let mut studio = studio(before);
+        studio.apply(StageCommand::ToggleRace);
+        studio.apply(StageCommand::Pick(2));
+        studio.apply(ViewCommand::ZoomPan {
+            body: 0,
+            zoom_pan: crate::ZoomPan::default().zoomed(2.0, [0.0; 2]),
+        });
+        (0..50).for_each(|_| studio.tick());
+        studio.apply(RunCommand::Act(Action::Kick(1.0)));
+        studio
+    };
+    let (mut old, mut edited) = (kicked(), kicked());
     let kicked = old.race().state_hash();
     reload_file(&mut old, Path::new(PATH), scene(&after));
-    assert_eq!(
-        old.viewer.notice.as_deref(),
-        Some(
-            "ship.toml: reloaded and rerun to tick 50 (your kicks and edits left out; Ctrl Z: old run)"
-        )
-    );
-    assert_eq!((old.mode(), old.active()), (Mode::Race, 2));
+    let notice = old.viewer.notice.as_deref().unwrap();
+    assert!(notice.starts_with("ship.toml: reloaded, state kept at tick 50: "), "{notice}");
+    assert_eq!((old.mode(), old.active(), old.race().state_hash()), (Mode::Race, 2, kicked));
     assert_eq!(old.view().zoom_pan(0).zoom(), 2.0);
 
+    let value = scene(&after).bodies[0].values[0];
+    edited.apply(RunCommand::Act(Action::Set { body: 0, parameter: 0, value }));
+    (0..50).for_each(|_| [&mut old, &mut edited].into_iter().for_each(Studio::tick));
+    assert_eq!(old.race().state_hash(), edited.race().state_hash());
+    let recorded = scene(&old.deck.recording().unwrap());
+    let mut again = crate::run::Session::racing(recorded.into());
+    again.run(100);
+    assert_eq!(again.race().state_hash(), old.race().state_hash());
+    // From the next start on, the file is the scene.
+    old.apply(StageCommand::Restart);
     let mut new = studio(&after);
     new.apply(StageCommand::ToggleRace);
-    (0..50).for_each(|_| new.tick());
+    (0..50).for_each(|_| [&mut old, &mut new].into_iter().for_each(Studio::tick));
     assert_eq!(old.race().state_hash(), new.race().state_hash());
-    old.apply(RunCommand::Undo);
-    assert_eq!(old.race().state_hash(), kicked);
+}
+
+#[test]
+fn a_changed_start_waits_for_the_restart_and_is_told() {
+    let before = text("spring");
+    let after = before.replacen("x0_m = ", "x0_m = 1", 1);
+    assert_ne!(before, after);
+    let mut studio = studio(before);
+    (0..50).for_each(|_| studio.tick());
+    let hash = studio.race().state_hash();
+    reload_file(&mut studio, Path::new(PATH), scene(&after));
+    let notice = studio.viewer.notice.as_deref().unwrap();
+    assert!(notice.contains("state kept at tick 50; from the next restart (Home): "), "{notice}");
+    assert_eq!(studio.race().state_hash(), hash);
+    studio.apply(StageCommand::Restart);
+    assert_eq!(studio.race().truth().bodies()[0].stepper.q(), [scene(&after).bodies[0].values[3]]);
+}
+
+#[test]
+fn a_changed_law_goes_on_from_the_state_and_the_time() {
+    let law = |force: &str| {
+        format!(
+            "title = \"Swing\"\ntick_hz = 60\nseconds = 5\nmethods = [\"rk4\", \"explicit-euler\"]\n\n\
+             [[law]]\nname = \"swing\"\n[law.coordinates.x]\nacceleration = \"{force}\"\nstart = 1.0\n"
+        )
+    };
+    let mut studio = studio(&law("-9 * x"));
+    (0..50).for_each(|_| studio.tick());
+    let state = |studio: &Studio| {
+        let at = &studio.selected().lane.bodies()[0].stepper;
+        (at.q().to_vec(), at.v().to_vec())
+    };
+    let before = state(&studio);
+    reload_file(&mut studio, Path::new(PATH), scene(&law("-16 * x")));
+    let notice = studio.viewer.notice.as_deref();
+    assert_eq!(notice, Some("ship.toml: reloaded, state kept at tick 50"));
+    assert_eq!((state(&studio), studio.race().tick()), (before, 50));
+    studio.tick();
+    let recorded = scene(&studio.deck.recording().unwrap());
+    assert!(recorded.to_toml().contains("-16 * x"));
+    let mut replay = crate::run::Replay::new(recorded.clone().into());
+    while let Some(reached) = replay.run_to_next_check(u64::MAX, &mut ()) {
+        assert_eq!(reached.hash, Some(recorded.checks[reached.row].hash));
+    }
+    // In a race each lane goes on from the state that is watched.
+    studio.apply(StageCommand::ToggleRace);
+    (0..50).for_each(|_| studio.tick());
+    let before = state(&studio);
+    reload_file(&mut studio, Path::new(PATH), scene(&law("-25 * x")));
+    let notice = studio.viewer.notice.as_deref().unwrap();
+    assert!(notice.contains(", every lane in that of "), "{notice}");
+    assert!(
+        studio.race().entrants().iter().all(|lane| lane.lane.bodies()[0].stepper.q() == before.0)
+    );
+}
+
+#[test]
+fn changed_lines_of_a_method_leave_the_other_lanes_where_they_are() {
+    let lane = |lines: &str| LaneSpec::from_step("mine.step", lines.as_bytes()).unwrap();
+    let mut studio = studio(text("spring"));
+    race_own_method(&mut studio, lane("v += h * a(x, v); x += h * v"));
+    (0..30).for_each(|_| studio.tick());
+    studio.apply(RunCommand::Act(Action::Kick(1.0)));
+    (0..30).for_each(|_| studio.tick());
+    let states = |studio: &Studio| -> Vec<_> {
+        let lanes = studio.race().entrants().iter();
+        lanes
+            .map(|lane| (lane.spec.method.id, lane.lane.bodies()[0].stepper.q().to_vec()))
+            .collect()
+    };
+    let before = states(&studio);
+    reload_own_method(&mut studio, lane("x += h * v; v += h * a(x, v)"));
+    let after = states(&studio);
+    assert_eq!(studio.race().tick(), 60);
+    let changed: Vec<_> = before.iter().zip(&after).filter(|(a, b)| a != b).collect();
+    assert!(changed.len() == 1 && changed[0].0.0 == "mine", "{changed:?}");
+    let notice = studio.viewer.notice.as_deref().unwrap();
+    assert!(
+        notice.starts_with("mine: reloaded, the run repeated to tick 60; order 1.00"),
+        "{notice}"
+    );
 }
 
 #[test]

@@ -109,6 +109,10 @@ pub(super) fn show(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) {
             commands.push(Command::Ask(DriverRequest::CopyLink));
             ui.close();
         }
+        if ui.button("Report: a picture with the run (Shift P)").clicked() {
+            commands.push(Command::Ask(DriverRequest::Report));
+            ui.close();
+        }
         if ui.button("Compare with… (Shift O)").clicked() {
             commands.push(Command::View(ViewCommand::AskForRun));
             ui.close();

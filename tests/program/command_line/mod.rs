@@ -23,6 +23,7 @@ mod mutations;
 mod own_methods;
 mod port;
 mod recordings;
+mod report;
 mod rule;
 mod running;
 mod schema;
