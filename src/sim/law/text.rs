@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use super::FIRST_COORDINATE;
+use super::{EventText, FIRST_COORDINATE};
 
 /// The text of a law: its structure, names and expressions, but no values.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
@@ -11,6 +11,8 @@ pub struct LawText {
     pub constants: Vec<String>,
     /// The coordinates, one or more.
     pub coordinates: Vec<CoordinateText>,
+    /// The events, at most [`MAX_EVENTS`](super::MAX_EVENTS).
+    pub events: Vec<EventText>,
     /// The conserved energy in joules, of coordinates, velocities and constants.
     pub energy: Option<String>,
     /// The indices of the coordinates drawn as x and y of one point.
