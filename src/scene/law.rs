@@ -175,7 +175,8 @@ pub(super) static EVENT_KEYS: [Key<WrittenEvent, (EventText, LawText)>; 3] = [
         read: |event, table, field| event.then = table.expressions(field),
         write: |(event, law)| {
             let name = |of: usize| &law.coordinates[of].name;
-            let rows = event.then.iter().map(|(of, new)| format!("v{} = {}", name(*of), quoted(new)));
+            let rows =
+                event.then.iter().map(|(of, new)| format!("v{} = {}", name(*of), quoted(new)));
             Some(format!("{{ {} }}", rows.collect::<Vec<_>>().join(", ")))
         },
     },

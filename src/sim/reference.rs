@@ -230,8 +230,9 @@ impl<B: Body> Propagator<B> for Reference<B::Vector> {
 
     fn restart(&mut self, t: f64, is_placing: bool, body: &B, state: &StateOf<B>) {
         if is_placing {
-            let Self { exact, solutions, allowance: Allowance { per_call, most, .. }, flights, .. } =
-                self;
+            let Self {
+                exact, solutions, allowance: Allowance { per_call, most, .. }, flights, ..
+            } = self;
             let (exact, solutions, flights) = (exact.take(), solutions.take(), flights.take());
             let allowance = Allowance::new(*per_call, *most);
             *self = Self { exact, flights, ..Self::with_allowance(solutions, allowance) };
@@ -244,7 +245,7 @@ impl<B: Body> Propagator<B> for Reference<B::Vector> {
         }
         self.failed = None;
         if let Some(flights) = &mut self.flights {
-            *flights.get_mut() = Flights::new(t, state);
+            flights.get_mut().begin(t, state);
         }
         if let Some(exact) = &mut self.exact {
             exact.jump(t, is_placing, state);

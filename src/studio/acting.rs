@@ -9,10 +9,10 @@ use super::viewer::Viewer;
 use crate::run::race::{Entrant, Mode, equal_cost};
 use crate::run::{MenuIndex, StartSettings};
 use crate::scene::{Action, LaneId, LaneSpec};
-use crate::sim::{IMPACTS, Impact};
 use crate::sim::bodies::TakesEffect;
 use crate::sim::integrators::Method;
 use crate::sim::number::round;
+use crate::sim::{IMPACTS, Impact};
 
 /// Performs an action on the run by hand.
 pub(super) fn act(deck: &mut Deck, viewer: &mut Viewer, action: Action) {

@@ -50,7 +50,9 @@ impl PartScope<'_> {
             Part::Energy => moves.contains(&slot) || constants.contains(&slot),
             Part::When(_) => {
                 let n = self.text.coordinates.len();
-                slot == T || (moves.start..moves.start + n).contains(&slot) || constants.contains(&slot)
+                slot == T
+                    || (moves.start..moves.start + n).contains(&slot)
+                    || constants.contains(&slot)
             }
             Part::Then(..) => slot == T || moves.contains(&slot) || constants.contains(&slot),
             Part::Place(..) => {
@@ -143,7 +145,8 @@ impl Compiler<'_> {
     /// Returns the tape of the new velocities, event by event.
     pub(super) fn then(&self) -> Compiled {
         let rows = self.text.events.iter().enumerate();
-        let then = rows.flat_map(|(i, event)| (0..).zip(&event.then).map(move |(n, it)| (i, n, it)));
+        let then =
+            rows.flat_map(|(i, event)| (0..).zip(&event.then).map(move |(n, it)| (i, n, it)));
         self.tape(then.map(|(i, n, (_, text))| (Part::Then(i, n), &**text)).collect())
     }
 

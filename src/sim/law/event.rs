@@ -39,7 +39,8 @@ pub(super) fn coordinates_of(text: &LawText, when: &[Tape]) -> Result<Vec<usize>
             _ => "`when` is no wall, which is one coordinate beside constants and `t`",
         };
         let name = &text.coordinates[0].name;
-        let remedy = format!("write a coordinate minus the place of the wall, such as `{name} - 1`");
+        let remedy =
+            format!("write a coordinate minus the place of the wall, such as `{name} - 1`");
         let fault = ExpressionFault::new(0..event.when.len(), what, remedy);
         faults.push(fault.of(Part::When(i)));
     }
@@ -57,7 +58,9 @@ pub(super) fn check_count(text: &LawText, motion: &Tape) -> Result<(), Vec<LawFa
         _ => format!("the law has {events} events beside {} corners and jumps", motion.switches()),
     };
     let name = 0..text.events[most].name.len();
-    Err(vec![ExpressionFault::new(name, what, format!("keep at most {most}")).of(Part::Event(most))])
+    Err(vec![
+        ExpressionFault::new(name, what, format!("keep at most {most}")).of(Part::Event(most)),
+    ])
 }
 
 impl Equations {

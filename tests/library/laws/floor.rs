@@ -31,8 +31,9 @@ fn under(id: &str, rule: &str) -> Solver {
 #[test]
 fn the_truth_of_a_law_has_the_states_of_sixty_digits() {
     let fall = |height: f64, e| falling(&format!("start = {height:?}"), "-g", e, "y");
-    let drag =
-        |height: f64, c, e| falling(&format!("start = {height:?}"), &format!("-g - {c}*vy"), e, "y");
+    let drag = |height: f64, c, e| {
+        falling(&format!("start = {height:?}"), &format!("-g - {c}*vy"), e, "y")
+    };
     let spring = |y: f64, v: f64, w2: f64, yc: f64, e| {
         let start = format!("start = {y:?}\nstart_velocity = {v:?}");
         falling(&start, &format!("-{w2}*(y - ({yc:?}))"), e, "y")
@@ -50,7 +51,12 @@ fn the_truth_of_a_law_has_the_states_of_sixty_digits() {
         (fall(1.0, 0.8), 4.0, [7.7674991427846547e-5, 0.050506744527476647], 1e-12),
         (drag(10.0, "0.1", 0.8), 5.0, [1.0198423469751812, -6.2038216007897263], 1e-12),
         (drag(1.0, "0.5", 1.0), 10.0, [0.010899401813355423, -0.70299693198461739], 1e-11),
-        (spring(1.0, 0.0, 16.0, -0.5, 0.9), 6.0, [0.0070575962865253095, -1.5616682372482382], 1e-11),
+        (
+            spring(1.0, 0.0, 16.0, -0.5, 0.9),
+            6.0,
+            [0.0070575962865253095, -1.5616682372482382],
+            1e-11,
+        ),
         (spring(0.2, 2.0, 9.0, 0.5, 0.7), 6.0, [0.94791223439757748, -0.8634541750971654], 1e-11),
         (paddle(0.3, 0.02, 20.0, 0.8), 3.0, [0.14880881022552925, 0.49034552235131185], 1e-11),
         (paddle(1.0, 0.01, 31.4159, 0.9), 5.0, [0.073343613782959098, 2.7240576559417889], 1e-11),
@@ -111,8 +117,24 @@ fn a_law_knows_its_true_bounces() {
     for n in 0..12 {
         let [own, exact] = [&truth, &ball].map(|of| of.true_bounce(n).unwrap());
         assert!((own[0] - exact[0]).abs() < 1e-12, "{n}: {own:?}, not {exact:?}");
-        assert!((own[1] - exact[1]).abs() < 1e-11 || own[1].is_nan(), "{n}: {own:?}, not {exact:?}");
+        assert!(
+            (own[1] - exact[1]).abs() < 1e-11 || own[1].is_nan(),
+            "{n}: {own:?}, not {exact:?}"
+        );
     }
+}
+
+#[test]
+fn the_bounces_on_a_paddle_end_where_the_truth_does_not_know_itself() {
+    let text = "[[law]]\nconstants = { g = 9.81, e = 0.9, a = 0.01, w = 60 }\n[law.coordinates.y]\nstart = 0.3\n\
+                acceleration = '-g'\n[law.events.paddle]\nwhen = 'y - a*sin(w*t)'\n\
+                then = { vy = 'a*w*cos(w*t) - e*(vy - a*w*cos(w*t))' }\n";
+    let truth = stepper(&body(text), Solver::Truth);
+    let known = (1..200).take_while(|n| truth.true_bounce(*n).is_some()).count() as u64;
+    let [last_s, _] = truth.true_bounce(known).unwrap();
+    assert!((10..30).contains(&known) && (4.0..12.0).contains(&last_s), "{known}: {last_s} s");
+    let errors = [3.0, 12.0].map(|t| after(text, Solver::Truth, t, 60).truth_error().unwrap()[0]);
+    assert!(errors[0] < 1e-9 && errors[1] > 1e-3, "{errors:?}");
 }
 
 #[test]
@@ -136,26 +158,31 @@ fn lines_with_a_floor_of_their_own_need_a_law_with_one() {
 #[test]
 fn events_that_are_no_walls_are_refused_with_a_remedy() {
     let event = |lines: &str| {
-        format!("[[law]]\nconstants = {{ g = 9.81 }}\n[law.coordinates.y]\nstart = 1\nacceleration = '-g'\n{lines}\n")
+        format!(
+            "[[law]]\nconstants = {{ g = 9.81 }}\n[law.coordinates.y]\nstart = 1\nacceleration = '-g'\n{lines}\n"
+        )
     };
     let floor = |lines: &str| event(&format!("[law.events.floor]\n{lines}"));
     let then = "then = { vy = '-0.8*vy' }";
-    let many: String = (0..9)
-        .map(|n| format!("[law.events.e{n}]\nwhen = 'y + {n}'\n{then}\n"))
-        .collect();
+    let many: String =
+        (0..9).map(|n| format!("[law.events.e{n}]\nwhen = 'y + {n}'\n{then}\n")).collect();
     for (text, words) in [
         (floor("when = 'y'"), "`then`"),
         (floor(&format!("when = 'g'\n{then}")), "depends on no coordinate"),
         (floor(&format!("when = 'y^2 - 1'\n{then}")), "no wall"),
         (floor(&format!("when = 'vy'\n{then}")), "does not depend on `vy`"),
         (floor(&format!("when = 't*y'\n{then}")), "evenly"),
-        (floor("when = 'y'\nthen = { vz = '-vy' }"), "no velocity is called `vz`; write one of `vy`"),
+        (
+            floor("when = 'y'\nthen = { vz = '-vy' }"),
+            "no velocity is called `vz`; write one of `vy`",
+        ),
         (floor("when = 'y'\nthen = { vy = '0.8*vy' }"), "still falling; write `vy = \"-e*vy\"`"),
         (floor("when = 'y'\nthen = {}"), "empty"),
         (floor("when = 'y'\nthen = { vy = '-e*vy' }"), "`e`"),
         (event(&many), "keep at most 8"),
         (
-            floor(&format!("when = 'y'\n{then}")).replace("start = 1", "start = 1\nexact = '1 - g*t^2/2'"),
+            floor(&format!("when = 'y'\n{then}"))
+                .replace("start = 1", "start = 1\nexact = '1 - g*t^2/2'"),
             "would pass through",
         ),
     ] {
@@ -163,7 +190,8 @@ fn events_that_are_no_walls_are_refused_with_a_remedy() {
         assert!(errors.contains(words), "{words}: {errors}");
     }
     let energy = |energy: &str| {
-        let text = falling("start = 1", "-g", 1.0, "y").replace("[law.coord", &format!("{energy}\n[law.coord"));
+        let text = falling("start = 1", "-g", 1.0, "y")
+            .replace("[law.coord", &format!("{energy}\n[law.coord"));
         parse(&format!("method = 'rk4'\n[[lane]]\nmethod = 'rk4'\nimpact = 'energy'\n{text}"))
     };
     assert!(energy("").unwrap_err().contains("needs the `energy`"));
@@ -174,7 +202,8 @@ fn events_that_are_no_walls_are_refused_with_a_remedy() {
 
 #[test]
 fn a_scene_with_events_is_written_as_it_was_read() {
-    let text = falling("start = 1.0", "-g", 0.8, "y").replace("then", "falling = false\nthen")
+    let text = falling("start = 1.0", "-g", 0.8, "y")
+        .replace("then", "falling = false\nthen")
         .replace("when = 'y'", "when = '1 - y/2'");
     let scene = parse(&text).unwrap_or_else(|errors| panic!("{errors}"));
     let written = scene.to_toml();

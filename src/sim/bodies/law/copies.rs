@@ -34,7 +34,8 @@ pub(super) fn batch(
     let values = known(&law.equations, &law.values).into();
     let copies = LawCopies { equations: law.equations.clone(), values, steering: law.steering };
     let has_walls = law.equations.events() > 0;
-    (law.coordinates() == 1 && !has_walls).then(|| Batch::with(&copies, solver, starts.into_iter(), set))
+    (law.coordinates() == 1 && !has_walls)
+        .then(|| Batch::with(&copies, solver, starts.into_iter(), set))
 }
 
 /// A block of [`LawCopies`].

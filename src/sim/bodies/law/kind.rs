@@ -7,9 +7,9 @@ use super::claims::{check_start, first_key};
 use crate::bodies::kind::{Coordinate, Kind, Origin};
 use crate::body::Body;
 use crate::law::{CoordinateText, Equations, LawFault, LawText};
-use crate::system::BodyClass;
 use crate::parameter::{Fault, Parameter, Range, TakesEffect, Text};
 use crate::state::quotient;
+use crate::system::BodyClass;
 use crate::system::System;
 
 /// Returns the kind of bodies that move by this law. The parameters of the kind are the constants, then the starts

@@ -45,7 +45,8 @@ impl Law {
         if wall.speed(&state.v) < 0.0 {
             self.turn(index, t, state);
         }
-        let push = self.push(wall, &mut self.registers.borrow_mut(), self.at(t, &state.q, &state.v));
+        let push =
+            self.push(wall, &mut self.registers.borrow_mut(), self.at(t, &state.q, &state.v));
         let speed = wall.speed(&state.v);
         // A flight that is lower than the rounding of the place is none.
         let is_low = speed * speed < -push * 8.0 * f64::EPSILON * wall.at.abs();
@@ -69,7 +70,8 @@ impl Law {
         for index in 0..self.equations.events() {
             let Some(wall) = self.equations.wall(registers, index, t) else { return };
             let is_still = wall.height(&state.q) == 0.0 && wall.speed(&state.v) == 0.0;
-            let rests = is_still && self.push(wall, registers, self.at(t, &state.q, &state.v)) < 0.0;
+            let rests =
+                is_still && self.push(wall, registers, self.at(t, &state.q, &state.v)) < 0.0;
             piece.modes[first + index] = if rests { RESTS } else { 0 };
         }
     }
