@@ -32,7 +32,6 @@ mod tape;
 mod text;
 mod token;
 
-pub use event::{EventText, MAX_EVENTS};
 pub use expression::Expression;
 pub use expression::{MAX_BYTES, MAX_DEPTH};
 pub use fault::{ExpressionFault, LawFault, Part, Remedy};
@@ -50,13 +49,16 @@ pub use step_text::{
 };
 pub use step_text::{FrameInput, FrameOutput, LoopText};
 pub use tape::MAX_OPERATIONS;
-pub use text::{CoordinateText, LawText, Layout};
+pub use text::{CoordinateText, EventText, LawText, Layout};
 
 /// The maximum number of coordinates of a law. More could not be distinguished on a stage.
 pub const MAX_COORDINATES: usize = 16;
 
 /// The maximum number of constants of a law.
 pub const MAX_CONSTANTS: usize = 64;
+
+/// The maximum number of events of a law.
+pub const MAX_EVENTS: usize = 8;
 
 /// The units that a coordinate can have.
 pub const UNITS: [&str; 14] =

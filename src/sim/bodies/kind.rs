@@ -208,7 +208,8 @@ impl Kind {
         if let Origin::Law(equations) = &self.origin { Some(equations) } else { None }
     }
 
-    /// Returns the reason why such bodies do not follow a rule for impacts, in words; `None` if they do, or meet no wall.
+    /// Returns the reason why such bodies do not follow a rule for impacts, in words; `None` if they may, or meet no
+    /// wall.
     pub fn impact_refusal(&self, impact: &Impact) -> Option<String> {
         let law = self.law().filter(|_| self.has_walls && impact.needs_energy())?;
         let why = "needs the `energy` of the law, which has none";

@@ -3,25 +3,8 @@
 use super::fault::{ExpressionFault, LawFault, Part};
 use super::form::is_linear;
 use super::tape::MAX_SWITCHES;
-use super::{Equations, FIRST_COORDINATE, LawText, Registers, T, Tape};
+use super::{Equations, FIRST_COORDINATE, LawText, MAX_EVENTS, Registers, T, Tape};
 use crate::impact::Wall;
-
-/// The maximum number of events of a law.
-pub const MAX_EVENTS: usize = 8;
-
-/// The text of an event: a wall, and how the law leaves it.
-#[derive(Clone, Debug, PartialEq, Eq, Hash)]
-pub struct EventText {
-    /// The name of the event.
-    pub name: String,
-    /// A coordinate, its opposite or a multiple, plus an expression of constants and `t`. The law meets the wall where
-    /// this falls through 0.
-    pub when: String,
-    /// Whether it falls; otherwise the law meets the wall where it rises.
-    pub falls: bool,
-    /// The coordinates whose velocities change, each with the new velocity by the old ones.
-    pub then: Vec<(usize, String)>,
-}
 
 /// Returns the index of the coordinate that each event is about, or the faults of the events that are no walls.
 pub(super) fn coordinates_of(text: &LawText, when: &[Tape]) -> Result<Vec<usize>, Vec<LawFault>> {
