@@ -82,11 +82,16 @@ impl ExperimentArgs {
             return Ok(scene);
         }
         if !scene.bodies.iter().any(|body| body.kind.has_walls) {
-            return Err(Error::mistake("--impact is for scenes with a ball, such as --scene ball"));
+            return Err(Error::mistake(
+                "--impact is for scenes with a ball or a law with events, such as --scene ball",
+            ));
         }
         let scene = scene.with_impacts(&self.methods, &self.impacts);
         let mut lanes = scene.lanes.iter();
-        if let Some(refusal) = lanes.find_map(|lane| lane.impact.refusal(lane.method)) {
+        let of_law = |impact| scene.bodies.iter().find_map(|it| it.kind.impact_refusal(impact));
+        let refused =
+            |lane: &LaneSpec| lane.impact.refusal(lane.method).or_else(|| of_law(lane.impact));
+        if let Some(refusal) = lanes.find_map(refused) {
             return Err(Error::mistake(format!("--impact: {refusal}")));
         }
         match scene.lanes.len() {

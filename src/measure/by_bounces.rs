@@ -58,14 +58,14 @@ pub(super) async fn follow_bounces(
     let see = |body: &FollowedBody, tick: u64| {
         let t = tick_hz.seconds(tick);
         (seconds, evaluations) = (t, body.stepper.evaluations());
-        let (y, speed) = (body.stepper.q()[0], body.stepper.v()[0].abs());
+        let now = body.stepper.bounces().copied().unwrap_or_default();
+        let (y, speed) = (now.height(), body.stepper.v()[now.coordinate].abs());
         highest = highest.max(y);
-        heights.push(y);
+        heights.push(body.stepper.q()[now.coordinate]);
         if t + rest_s > until_s {
             highest_last = highest_last.max(y);
         }
         below_since = if y < -slop { below_since.or(Some(t)) } else { None };
-        let now = body.stepper.bounces().copied().unwrap_or_default();
         let has_peaked = (now.apex, now.apex_after) != (before.apex, before.apex_after);
         if now.impacts > before.impacts || has_peaked {
             seen.push((now, has_peaked, speed));
@@ -85,10 +85,11 @@ pub(super) async fn follow_bounces(
     found.sinks_at_s = below_since.filter(|since| seconds - since >= sunk_s);
     let is_cut = !truth.inputs.is_empty();
     if found.height.is_none() && found.landing.is_none() && !is_cut {
-        found.gap = gap(&mut *truth.start(Solver::Truth), &heights, tick_hz);
+        let exact = &mut *truth.start(Solver::Truth);
+        found.gap = gap(exact, before.coordinate, &heights, tick_hz);
     }
     let is_known = exact.advance(0.0, until_s - rest_s, 1).is_ok();
-    let rests = is_known && exact.q()[0] == 0.0 && exact.v()[0] == 0.0;
+    let rests = is_known && exact.v()[before.coordinate] == 0.0;
     let is_up = found.sinks_at_s.is_none() && highest_last > LIES * highest.max(1.0);
     found.never_rests = (rests && is_up).then_some(highest_last);
     run
@@ -96,12 +97,18 @@ pub(super) async fn follow_bounces(
 
 /// Returns the largest difference of the heights at ticks from the exact ones, in parts of the highest exact one, and
 /// its time (s). `None` if the exact ones are not known.
-fn gap(exact: &mut dyn Stepper, heights: &[f64], tick_hz: TickRate) -> Option<(f64, f64)> {
-    let (mut worst, mut highest) = ((0.0, 0.0), exact.q()[0].abs());
+fn gap(
+    exact: &mut dyn Stepper,
+    coordinate: usize,
+    heights: &[f64],
+    tick_hz: TickRate,
+) -> Option<(f64, f64)> {
+    let (mut worst, mut highest) = ((0.0, 0.0), exact.q()[coordinate].abs());
     for (tick, height) in (1..).zip(&heights[1..]) {
         exact.advance(tick_hz.seconds(tick - 1), tick_hz.step_s(), 1).ok()?;
-        highest = exact.q()[0].abs().max(highest);
-        let apart = (height - exact.q()[0]).abs();
+        let wanted = exact.q()[coordinate];
+        highest = wanted.abs().max(highest);
+        let apart = (height - wanted).abs();
         if apart > worst.0 {
             worst = (apart, tick_hz.seconds(tick));
         }

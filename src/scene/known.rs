@@ -3,7 +3,7 @@
 use super::described::{NAME, field_of};
 use super::document::{LANE, RACE, RACE_TABLE, TOP};
 use super::keys::{Key, SPEC};
-use super::law::{COORDINATE_KEYS, LAW, LAW_KEYS};
+use super::law::{COORDINATE_KEYS, EVENT_KEYS, LAW, LAW_KEYS};
 use super::net::{GRID_KEYS, KICKED, LIST_KEYS, NET, SPRING_KEYS};
 use super::own::{OWN, OWN_KEYS};
 use super::script::{
@@ -41,6 +41,7 @@ pub fn scene_tables() -> Vec<(String, Vec<SceneKey>)> {
         (array(OWN), fields(&OWN_KEYS)),
         (array(LAW), [vec![NAME], fields(&LAW_KEYS)].concat()),
         (format!("[{LAW}.coordinates.x]"), fields(&COORDINATE_KEYS)),
+        (format!("[{LAW}.events.floor]"), fields(&EVENT_KEYS)),
         (array(NET), of_nets),
         ("a spring of `springs`".to_owned(), fields(&SPRING_KEYS)),
         (array(COMMAND), [AT_S, TICK, LANE_NUMBER].into_iter().chain(of_commands).collect()),

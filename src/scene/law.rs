@@ -4,14 +4,15 @@ use std::ops::Range as Span;
 use std::sync::Arc;
 
 use super::SceneBody;
+use super::clip;
 use super::keys::{Key, list, number, quoted};
 use super::nearest::{self, nearest};
 use super::table::{Named, Table, TextBlock};
 use super::wanted::{Field, Wanted};
 use crate::sim::bodies::{ClaimHorizon, Kind, Range, check_law, law_kind};
 use crate::sim::law::{
-    CoordinateText, LawFault, LawText, Layout, MAX_CONSTANTS, MAX_COORDINATES, Part, SecondOrder,
-    UNITS, second_order,
+    CoordinateText, EventText, LawFault, LawText, Layout, MAX_CONSTANTS, MAX_COORDINATES,
+    MAX_EVENTS, Part, SecondOrder, UNITS, second_order,
 };
 
 /// The name of the table array.
@@ -21,6 +22,16 @@ const CONSTANTS: Field =
     Field::optional("constants", "named numbers for its expressions", Wanted::Constants);
 const COORDINATES: Field =
     Field::required("coordinates", "what moves", Wanted::Coordinates("law.coordinates"));
+const EVENTS: Field =
+    Field::optional("events", "walls at which velocities turn", Wanted::Events("law.events"));
+/// The key of a rule that needs an energy.
+const ENERGY: Field =
+    Field::optional("energy", "in joules, if the law conserves it", Wanted::Expression);
+const FALLING: Field = Field::optional(
+    "falling",
+    "whether `when` falls through 0; if false it rises",
+    Wanted::Boolean,
+);
 const PLANE: Field =
     Field::optional("plane", "the coordinates that are drawn as a point", Wanted::Plane);
 const DRAW: Field = Field::optional("draw", "how the coordinates lie in space", Wanted::Layout);
@@ -31,7 +42,7 @@ const AT: Field =
     Field::optional("at", "its place in metres, by coordinates and constants", Wanted::At);
 
 /// The keys of `[[law]]` besides its name.
-pub(super) static LAW_KEYS: [Key<WrittenLaw, SceneBody>; 5] = [
+pub(super) static LAW_KEYS: [Key<WrittenLaw, SceneBody>; 6] = [
     Key {
         field: CONSTANTS,
         read: |law, row, field| (law.constants, law.numbers) = read_constants(row, field),
@@ -49,7 +60,13 @@ pub(super) static LAW_KEYS: [Key<WrittenLaw, SceneBody>; 5] = [
         write: |_| None,
     },
     Key {
-        field: Field::optional("energy", "in joules, if the law conserves it", Wanted::Expression),
+        field: EVENTS,
+        read: |law, row, field| law.events = read_events(row, field, law.coordinates.as_deref()),
+        // Events have tables of their own.
+        write: |_| None,
+    },
+    Key {
+        field: ENERGY,
         read: |law, row, field| law.energy = row.expression(field),
         write: |body| body.kind.law()?.text().energy.as_deref().map(quoted),
     },
@@ -141,6 +158,30 @@ pub(super) static COORDINATE_KEYS: [Key<WrittenCoordinate, CoordinateValues>; 7]
     },
 ];
 
+/// The keys of an event.
+pub(super) static EVENT_KEYS: [Key<WrittenEvent, (EventText, LawText)>; 3] = [
+    Key {
+        field: Field::required("when", "a coordinate minus a wall's place", Wanted::Expression),
+        read: |event, table, field| event.when = table.expression(field),
+        write: |(event, _)| Some(quoted(&event.when)),
+    },
+    Key {
+        field: FALLING,
+        read: |event, table, field| event.falls = table.boolean(field).unwrap_or(true),
+        write: |(event, _)| (!event.falls).then(|| "false".into()),
+    },
+    Key {
+        field: Field::required("then", "new velocities by the old ones", Wanted::Velocities),
+        read: |event, table, field| event.then = table.expressions(field),
+        write: |(event, law)| {
+            let name = |of: usize| &law.coordinates[of].name;
+            let rows =
+                event.then.iter().map(|(of, new)| format!("v{} = {}", name(*of), quoted(new)));
+            Some(format!("{{ {} }}", rows.collect::<Vec<_>>().join(", ")))
+        },
+    },
+];
+
 /// Replaces a number if its key is present. If the value has a fault, the number becomes `None`.
 fn read_number_into(number: &mut Option<f64>, table: &mut Table<'_>, field: &Field) {
     let read = table.number(field);
@@ -159,6 +200,8 @@ pub(super) struct WrittenLaw {
     /// Values of the constants; `None` if one of them has a fault.
     numbers: Option<Vec<f64>>,
     coordinates: Option<Vec<WrittenCoordinate>>,
+    /// The events, each with the coordinates whose velocities it changes; `None` after a fault.
+    events: Option<Vec<(WrittenEvent, Vec<usize>)>>,
     energy: Option<TextBlock>,
     plane: Option<[usize; 2]>,
     layout: Layout,
@@ -178,6 +221,16 @@ pub(super) struct WrittenCoordinate {
     kick: Option<f64>,
 }
 
+/// An event as written in the file.
+pub(super) struct WrittenEvent {
+    name: String,
+    span: Span<usize>,
+    when: Option<TextBlock>,
+    falls: bool,
+    /// New velocities, each with the name and its bytes.
+    then: Option<Vec<(WrittenName, TextBlock)>>,
+}
+
 /// Reads the kind of a law and the values of its parameters; each is `None` if it has a fault. Checks the law's
 /// claims against its motion at the ticks of `horizon`.
 pub(super) fn read_law(
@@ -190,6 +243,15 @@ pub(super) fn read_law(
     let Some(text) = law.text() else { return (None, None) };
     if law.coordinates().iter().any(|coordinate| coordinate.is_rate) {
         law.report_rates(row, &text);
+        return (None, None);
+    }
+    if let (true, Some(exact)) = (
+        row.has(EVENTS.key),
+        law.coordinates().iter().find_map(|coordinate| coordinate.exact.as_ref()),
+    ) {
+        let at = exact.span_in_file(&(0..exact.text.len()));
+        let what = "the law has events, and its `exact` would pass through their walls";
+        row.report_fault(at, what, "remove `exact`: the truth finds the impacts");
         return (None, None);
     }
     let kind = match law_kind(text) {
@@ -253,6 +315,38 @@ fn read_coordinates(row: &mut Table<'_>, field: &Field) -> Option<Vec<WrittenCoo
         row.add_faults_of(table);
     }
     Some(coordinates)
+}
+
+/// Reads the events; `None` if one has a fault.
+fn read_events(
+    row: &mut Table<'_>,
+    field: &Field,
+    coordinates: Option<&[WrittenCoordinate]>,
+) -> Option<Vec<(WrittenEvent, Vec<usize>)>> {
+    let entries = row.entries(field).unwrap_or_default();
+    check_count(row, "events", &entries, MAX_EVENTS);
+    let mut events = Vec::new();
+    for entry in entries.iter().take(MAX_EVENTS) {
+        let mut table = row.table_of(entry, &field.wanted)?;
+        let (name, span) = (entry.key.into(), entry.span.clone());
+        let mut event = WrittenEvent { name, span, when: None, falls: true, then: None };
+        Key::read_all(&EVENT_KEYS, &mut event, &mut table);
+        let known: Vec<_> =
+            coordinates.unwrap_or_default().iter().map(|of| format!("v{}", of.name)).collect();
+        let of = event.then.iter().flatten().map(|((name, span), _)| {
+            let index = known.iter().position(|velocity| velocity == name);
+            if index.is_none() {
+                let known: Vec<&str> = known.iter().map(|it| &**it).collect();
+                let what = format!("no velocity is called `{}`", clip(name));
+                table.report_fault(span.clone(), what, offer(name, &known));
+            }
+            index
+        });
+        let of: Option<Vec<usize>> = of.collect::<Vec<_>>().into_iter().collect();
+        row.add_faults_of(table);
+        events.push((event, of?));
+    }
+    Some(events)
 }
 
 fn read_at(table: &mut Table<'_>, field: &Field) -> Option<[WrittenName; 2]> {
@@ -343,7 +437,7 @@ fn offer(written: &str, known: &[&str]) -> String {
     nearest::offer(nearest(written, known.iter().map(|name| (*name, *name))), known, '`')
 }
 
-/// Returns the tables of a law's coordinates.
+/// Returns the tables of a law's coordinates and events.
 pub(super) fn coordinate_tables(SceneBody { values, .. }: &SceneBody, law: &LawText) -> String {
     let (n, rest) = (law.coordinates.len(), &values[law.constants.len()..]);
     let table = |(i, text): (usize, &CoordinateText)| {
@@ -355,12 +449,20 @@ pub(super) fn coordinate_tables(SceneBody { values, .. }: &SceneBody, law: &LawT
             &CoordinateValues { text, start, start_velocity, kick },
         )
     };
-    law.coordinates.iter().enumerate().map(table).collect()
+    let events = law.events.iter().map(|event| {
+        let head = format!("\n[{LAW}.{}.{}]\n", EVENTS.key, event.name);
+        head + &Key::lines(&EVENT_KEYS, &(event.clone(), law.clone()))
+    });
+    law.coordinates.iter().enumerate().map(table).chain(events).collect()
 }
 
 impl WrittenLaw {
     fn coordinates(&self) -> &[WrittenCoordinate] {
         self.coordinates.as_deref().unwrap_or_default()
+    }
+
+    fn events(&self) -> &[(WrittenEvent, Vec<usize>)] {
+        self.events.as_deref().unwrap_or_default()
     }
 
     /// Returns the text of the law; `None` if it has no coordinate or lacks an acceleration.
@@ -375,6 +477,15 @@ impl WrittenLaw {
                 at: of.at.as_ref().map(|at| at.each_ref().map(|(text, _)| text.clone())),
             })
         };
+        let event = |(of, changed): &(WrittenEvent, Vec<usize>)| {
+            let new = of.then.as_ref()?.iter().map(|(_, new)| text(new));
+            Some(EventText {
+                name: of.name.clone(),
+                when: text(of.when.as_ref()?),
+                falls: of.falls,
+                then: changed.iter().copied().zip(new).collect(),
+            })
+        };
         Some(LawText {
             constants: self.constants.iter().map(|(name, _)| name.clone()).collect(),
             coordinates: self
@@ -383,6 +494,7 @@ impl WrittenLaw {
                 .iter()
                 .map(coordinate)
                 .collect::<Option<_>>()?,
+            events: self.events.as_ref()?.iter().map(event).collect::<Option<_>>()?,
             energy: self.energy.as_ref().map(text),
             plane: self.plane,
             layout: self.layout,
@@ -441,6 +553,12 @@ impl WrittenLaw {
                 at.as_ref().map_or(row.header.clone(), |at| at[axis].1.clone())
             }
             Part::Energy => within(&self.energy),
+            Part::Event(i) => self.events()[i].0.span.clone(),
+            Part::When(i) => within(&self.events()[i].0.when),
+            Part::Then(i, n) => {
+                let then = self.events()[i].0.then.as_ref().and_then(|then| then.get(n));
+                then.map_or(row.header.clone(), |(_, new)| new.span_in_file(&span))
+            }
         };
         row.report_fault(at, what, nearest::words(remedy));
     }

@@ -73,6 +73,10 @@ pub(super) enum Wanted {
     Constants,
     /// A table of this name for each coordinate.
     Coordinates(&'static str),
+    /// A table of this name for each event.
+    Events(&'static str),
+    /// A table of the new velocities of an event.
+    Velocities,
     Expression,
     /// The lines of a step.
     Lines,
@@ -170,7 +174,11 @@ impl Wanted {
             Wanted::Spring => "a table",
             Wanted::Numbers(_) => "a list of numbers",
             Wanted::Boolean => "a boolean",
-            Wanted::Table(_) | Wanted::Constants | Wanted::Coordinates(_) => "a table",
+            Wanted::Table(_)
+            | Wanted::Constants
+            | Wanted::Coordinates(_)
+            | Wanted::Events(_)
+            | Wanted::Velocities => "a table",
             Wanted::Point => "a pair of numbers",
             Wanted::Tables(_) => "an array of tables",
         }
@@ -218,6 +226,10 @@ impl fmt::Display for Wanted {
             Wanted::Coordinates(name) => {
                 write!(f, "`[{name}.x]` for a coordinate x, and its keys below")
             }
+            Wanted::Events(name) => {
+                write!(f, "`[{name}.floor]` for an event floor, and its keys below")
+            }
+            Wanted::Velocities => write!(f, "velocities, such as {{ vy = \"-e*vy\" }}"),
             Wanted::Expression => write!(f, "an expression in double quotes, such as \"-k*x/m\""),
             Wanted::Lines => write!(
                 f,

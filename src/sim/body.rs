@@ -18,7 +18,7 @@ pub trait Body: System<Vector: Vector> + Clone + Send + 'static {
     /// Whether the body has a closed form, [`Body::exact_into`].
     const HAS_EXACT: bool = false;
 
-    /// Whether the body can have [walls](Body::walls).
+    /// Whether the body can have a [wall](Body::wall).
     const HAS_WALLS: bool = false;
 
     /// The parameters of this kind of body. The card of the kind describes them in
@@ -94,10 +94,16 @@ pub trait Body: System<Vector: Vector> + Clone + Send + 'static {
         [f64::INFINITY; 2]
     }
 
-    /// Returns the walls of the first coordinate at time `t` (s): the lower one, which the body meets falling, and the
-    /// upper one. Between impacts the body moves by its acceleration.
-    fn walls(&self, _t: f64) -> [Option<Wall>; 2] {
-        [None; 2]
+    /// Returns the wall with this index at time `t` (s), first the lower one; `None` beyond the last. Between impacts
+    /// the body moves by its acceleration.
+    fn wall(&self, _index: usize, _t: f64) -> Option<Wall> {
+        None
+    }
+
+    /// Turns the velocities of a body that goes into a wall at time `t` (s). Returns whether the body does so itself,
+    /// and not by the wall's restitution.
+    fn turn(&self, _wall: usize, _t: f64, _state: &mut StateOf<Self>) -> bool {
+        false
     }
 
     /// Makes the walls springs, or makes them hard again.
@@ -123,6 +129,24 @@ pub trait Body: System<Vector: Vector> + Clone + Send + 'static {
     /// Returns the number of parts of the force law with corners or jumps.
     fn switches(&self) -> usize {
         0
+    }
+
+    /// Returns the first switch that is a wall, if the truth is a reference: its mode is 0 in flight, and it has a
+    /// boundary at the wall.
+    fn first_wall(&self) -> usize {
+        usize::MAX
+    }
+
+    /// Enters the piece beyond a boundary of a switch on this side. Returns whether the state has jumped.
+    fn cross(
+        &self,
+        piece: &mut Piece,
+        [switch, side]: [usize; 2],
+        _t: f64,
+        _state: &mut StateOf<Self>,
+    ) -> bool {
+        piece.modes[switch] = self.neighbour(switch, piece.modes[switch], side);
+        false
     }
 
     /// Returns the smooth piece of the force law at this time and state. A reference solution ends a step at each

@@ -43,7 +43,12 @@ impl<B: Body> BodyAtState<B> {
             if let Some(other) = self.solver.setting() {
                 integrator.set(other);
             }
-            Box::new(BodyStepper { placed: self, propagator: AnyMethod(integrator) })
+            let method = AnyMethod(integrator);
+            if self.has_walls() {
+                let propagator = Bouncer::new(method, self.solver, self.bounces, &self.state);
+                return Box::new(BodyStepper { placed: self, propagator });
+            }
+            Box::new(BodyStepper { placed: self, propagator: method })
         } else if B::HAS_EXACT {
             let propagator = ExactFlow::new(&self.state, t);
             Box::new(BodyStepper { placed: self, propagator })
@@ -51,6 +56,10 @@ impl<B: Body> BodyAtState<B> {
             let propagator = Reference::new(&self.body.system, &self.state, t);
             Box::new(BodyStepper { placed: self, propagator })
         }
+    }
+
+    fn has_walls(&self) -> bool {
+        B::HAS_WALLS && self.body.system.wall(0, 0.0).is_some()
     }
 
     /// Returns the recorded tick of `step`, made on a copy of the body; `None` if the solver is no method.
@@ -197,7 +206,7 @@ impl<B: Body> PlacedBody for BodyAtState<B> {
         self.lost_time
     }
     fn bounces(&self) -> Option<&Bounces> {
-        const { B::HAS_WALLS }.then_some(&self.bounces)
+        self.has_walls().then_some(&self.bounces)
     }
     fn is_linear(&self) -> bool {
         self.body.system.is_linear()

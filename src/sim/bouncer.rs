@@ -38,12 +38,14 @@ pub(super) struct Bouncer<P, V> {
     last_h: f64,
     from: State<V>,
     trial: State<V>,
+    /// Room for an acceleration.
+    a: V,
 }
 
-/// A wall met by a body: the lower one has side 1, the upper one side -1.
+/// A wall met by a body, with its index.
 #[derive(Clone, Copy)]
 struct Contact {
-    side: f64,
+    index: usize,
     wall: Wall,
 }
 
@@ -54,38 +56,45 @@ impl Contact {
     }
 
     fn all<B: Body>(body: &B, t: f64) -> impl Iterator<Item = Self> {
-        let sides = body.walls(t).into_iter().zip([1.0, -1.0]);
-        sides.filter_map(|(wall, side)| Some(Self { side, wall: wall? }))
+        (0..).map_while(move |index| Some(Self { index, wall: body.wall(index, t)? }))
     }
 
-    /// Returns the wall of the same side at another time.
+    /// Returns the same wall at another time.
     fn at<B: Body>(self, body: &B, t: f64) -> Self {
-        Self::all(body, t).find(|other| other.side == self.side).unwrap_or(self)
+        body.wall(self.index, t).map_or(self, |wall| Self { wall, ..self })
     }
 
     /// Returns the distance from the wall, negative beyond it.
     fn height<V: Vector>(self, y: &State<V>) -> f64 {
-        self.side * (y.q.components()[0] - self.wall.at)
+        self.wall.height(y.q.components())
     }
 
     /// Returns the velocity away from the wall.
     fn speed<V: Vector>(self, y: &State<V>) -> f64 {
-        self.side * (y.v.components()[0] - self.wall.velocity)
+        self.wall.speed(y.v.components())
     }
 
     fn set_height<V: Vector>(self, height: f64, y: &mut State<V>) {
-        y.q.components_mut()[0] = self.wall.at + self.side * height;
+        y.q.components_mut()[self.wall.coordinate] = self.wall.at + self.wall.side * height;
     }
 
     fn set_speed<V: Vector>(self, speed: f64, y: &mut State<V>) {
-        y.v.components_mut()[0] = self.wall.velocity + self.side * speed;
+        y.v.components_mut()[self.wall.coordinate] = self.wall.velocity + self.wall.side * speed;
     }
 
-    /// Returns the acceleration away from the wall.
-    fn push<B: Body>(self, body: &Counted<B>, t: f64, y: &StateOf<B>) -> f64 {
-        let mut a = y.v.clone();
-        body.acceleration(t, &y.q, &y.v, &mut a);
-        self.side * a.components()[0]
+    /// Turns a body at time `t` (s). Returns the velocities away from the wall before and after.
+    fn turn<B: Body>(self, body: &B, t: f64, y: &mut StateOf<B>) -> [f64; 2] {
+        let speed = self.speed(y);
+        if !body.turn(self.index, t, y) {
+            self.set_speed(-self.wall.restitution * speed, y);
+        }
+        [speed, self.speed(y)]
+    }
+
+    /// Returns the acceleration away from the wall, for which `a` is room.
+    fn push<B: Body>(self, body: &Counted<B>, t: f64, y: &StateOf<B>, a: &mut B::Vector) -> f64 {
+        body.acceleration(t, &y.q, &y.v, a);
+        self.wall.side * (a.components()[self.wall.coordinate] - self.wall.acceleration)
     }
 }
 
@@ -93,10 +102,10 @@ impl<P: Clone, V: Vector> Bouncer<P, V> {
     /// Creates a body's steps by `inner`, which is the method of `solver`.
     pub(super) fn new(inner: P, solver: Solver, bounces: Bounces, like: &State<V>) -> Self {
         let probe = inner.clone();
-        let (from, trial) = (like.clone(), like.clone());
+        let (from, trial, a) = (like.clone(), like.clone(), like.v.clone());
         let (rule, engine) = (solver.impact().rule, solver.method().and_then(Method::bounce));
         let kept = Default::default();
-        Self { inner, probe, rule, engine, kept, bounces, last_h: 0.0, from, trial }
+        Self { inner, probe, rule, engine, kept, bounces, last_h: 0.0, from, trial, a }
     }
 
     /// Makes one tick of `n` substeps by an engine's rule for the wall that is nearer.
@@ -113,7 +122,7 @@ impl<P: Clone, V: Vector> Bouncer<P, V> {
         let mut ball = NearWall {
             height: contact.height(y),
             speed: contact.speed(y),
-            push: contact.push(body, t, y),
+            push: contact.push(body, t, y, &mut self.a),
             restitution: contact.wall.restitution,
             kept,
             touches,
@@ -141,16 +150,19 @@ impl<P: Clone, V: Vector> Bouncer<P, V> {
             && let Some(contact) = Contact::beyond(&body.system, t, y)
             && contact.speed(y) < 0.0
         {
-            let speed = contact.speed(y);
-            let back = -contact.wall.restitution * speed;
-            let gained = contact.push(body, t, y) * h;
+            let gained = contact.push(body, t, y, &mut self.a) * h;
+            let [speed, back] = contact.turn(&body.system, t, y);
             contact.set_speed(back - gained, y);
             self.land(body, t, y, [speed, back]);
             self.bounces.beyond = -contact.height(y);
             self.bounces.add(contact.height(y));
         }
         let is_within = matches!(self.rule, Rule::Within(_) | Rule::Swept);
-        if is_within && let Some(contact) = Self::rest(body, t, y) {
+        if is_within && let Some(contact) = self.rest(body, t, y) {
+            // Other coordinates go on.
+            if y.q.components().len() > 1 {
+                self.inner.step(body, t, h, 1, y)?;
+            }
             let contact = contact.at(&body.system, t + h);
             contact.set_height(0.0, y);
             contact.set_speed(0.0, y);
@@ -172,19 +184,18 @@ impl<P: Clone, V: Vector> Bouncer<P, V> {
                     return Ok(());
                 }
                 let height = contact.height(y);
-                let mut back = -contact.wall.restitution * speed;
                 match turn {
                     Turn::Velocity | Turn::VelocityBlind => {}
                     Turn::Clamp => contact.set_height(0.0, y),
                     Turn::Mirror => contact.set_height(-height, y),
                     Turn::Energy => {
-                        let gained = 2.0 * contact.push(body, t + h, y) * height;
+                        let gained = 2.0 * contact.push(body, t + h, y, &mut self.a) * height;
                         let at_wall = (speed * speed - gained).max(0.0).sqrt();
-                        back = contact.wall.restitution * at_wall;
+                        contact.set_speed(-at_wall, y);
                         contact.set_height(0.0, y);
                     }
                 }
-                contact.set_speed(back, y);
+                let [_, back] = contact.turn(&body.system, t + h, y);
                 self.land(body, t + h, y, [speed, back]);
                 self.bounces.beyond = -height;
             }
@@ -218,10 +229,15 @@ impl<P: Clone, V: Vector> Bouncer<P, V> {
     }
 
     /// Returns the wall against which the force presses the body at rest.
-    fn rest<B: Body<Vector = V>>(body: &Counted<B>, t: f64, y: &State<V>) -> Option<Contact> {
+    fn rest<B: Body<Vector = V>>(
+        &mut self,
+        body: &Counted<B>,
+        t: f64,
+        y: &State<V>,
+    ) -> Option<Contact> {
         let is_at_rest = |it: &Contact| it.height(y) == 0.0 && it.speed(y) == 0.0;
         let contact = Contact::all(&body.system, t).find(is_at_rest)?;
-        (contact.push(body, t, y) < 0.0).then_some(contact)
+        (contact.push(body, t, y, &mut self.a) < 0.0).then_some(contact)
     }
 
     /// Handles the impact of a step on the straight line, and goes straight on.
@@ -231,10 +247,8 @@ impl<P: Clone, V: Vector> Bouncer<P, V> {
         P: Propagator<B>,
     {
         let part = chord(contact.at(&body.system, t).height(&self.from), contact.height(y));
-        let speed = contact.speed(y);
-        let back = -contact.wall.restitution * speed;
+        let [speed, back] = contact.turn(&body.system, t + part * h, y);
         contact.set_height((back * (h - part * h)).max(0.0), y);
-        contact.set_speed(back, y);
         self.land(body, t + part * h, y, [speed, back]);
     }
 
@@ -257,12 +271,15 @@ impl<P: Clone, V: Vector> Bouncer<P, V> {
             let (hit_at, rest) = (t + part * left, left - part * left);
             let contact = end.at(&body.system, hit_at);
             let before = contact.speed(y);
-            let speed = contact.wall.restitution * before.abs();
             contact.set_height(0.0, y);
-            contact.set_speed(speed, y);
+            contact.set_speed(-before.abs(), y);
+            let [_, speed] = contact.turn(&body.system, hit_at, y);
             self.land(body, hit_at, y, [before, speed]);
-            let push = contact.push(body, hit_at, y);
+            let push = contact.push(body, hit_at, y, &mut self.a);
             if push < 0.0 && (2.0 * speed < -push * SHORTEST_FLIGHT_S || impacts == MAX_IMPACTS) {
+                if y.q.components().len() > 1 {
+                    self.inner.step(body, hit_at, rest, 1, y)?;
+                }
                 let contact = contact.at(&body.system, hit_at + rest);
                 contact.set_height(0.0, y);
                 contact.set_speed(0.0, y);
@@ -301,7 +318,7 @@ impl<P: Clone, V: Vector> Bouncer<P, V> {
             return Ok(0.0);
         }
         // After an impact the body leaves the wall, and its way up is no impact.
-        let push = if start == 0.0 { begin.push(body, t, &self.from) } else { 0.0 };
+        let push = if start == 0.0 { begin.push(body, t, &self.from, &mut self.a) } else { 0.0 };
         let up = if push < 0.0 { (v0 / -push / h).min(0.5) } else { 0.0 };
         match locating {
             Locating::Chord | Locating::SpeedAtEnd => {
@@ -315,7 +332,10 @@ impl<P: Clone, V: Vector> Bouncer<P, V> {
                 let slopes = [h * v0, h * v1];
                 let part = root([start, last], up, |s| Ok(cubic([start, last], slopes, s)))?;
                 // Its slope would be less accurate than a cubic of the speeds.
-                let pushes = [begin.push(body, t, &self.from), end.push(body, t + h, y)];
+                let pushes = [
+                    begin.push(body, t, &self.from, &mut self.a),
+                    end.push(body, t + h, y, &mut self.a),
+                ];
                 end.set_speed(cubic([v0, v1], pushes.map(|a| h * a), part), y);
                 Ok(part)
             }
@@ -406,6 +426,7 @@ where
             None => (0..n).try_for_each(|i| self.part(body, t + part * f64::from(i), part, y))?,
         }
         if let Some(contact) = Contact::all(&body.system, t + h).next() {
+            self.bounces.coordinate = contact.wall.coordinate;
             self.bounces.add(contact.height(y));
         }
         Ok(())

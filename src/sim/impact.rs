@@ -6,15 +6,51 @@
 
 use std::fmt;
 
-/// A wall, which the first coordinate of a body cannot pass.
+/// A wall, which a coordinate of a body cannot pass.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Wall {
-    /// The coordinate of the wall.
+    /// The index of that coordinate.
+    pub coordinate: usize,
+    /// 1 if the body is above the wall, and -1 if it is below.
+    pub side: f64,
+    /// The place of the wall.
     pub at: f64,
     /// The velocity of the wall.
     pub velocity: f64,
+    /// The acceleration of the wall.
+    pub acceleration: f64,
     /// e, the part of the speed relative to the wall that an impact leaves, 0 to 1.
     pub restitution: f64,
+}
+
+/// Frequency of a soft wall in hertz: k is 898 per second squared.
+#[cfg(feature = "lab")]
+const SOFT_HZ: f64 = 4.77;
+
+impl Wall {
+    /// Returns the distance of coordinates from the wall, negative beyond it.
+    pub(super) fn height(&self, q: &[f64]) -> f64 {
+        self.side * (q[self.coordinate] - self.at)
+    }
+
+    /// Returns the velocity away from the wall.
+    pub(super) fn speed(&self, v: &[f64]) -> f64 {
+        self.side * (v[self.coordinate] - self.velocity)
+    }
+
+    /// Returns the acceleration by the wall under the rule `penalty`.
+    #[cfg(feature = "lab")]
+    pub(super) fn soft_push(&self, q: &[f64], v: &[f64]) -> f64 {
+        let (depth, speed) = (-self.height(q), self.speed(v));
+        if depth <= 0.0 {
+            return 0.0;
+        }
+        let log = libm::log(self.restitution.max(1e-300));
+        let turn = std::f64::consts::PI;
+        let soft = 2.0 * turn * SOFT_HZ;
+        let damping = -2.0 * soft * log / (turn * turn + log * log).sqrt();
+        self.side * (soft * soft * depth - damping * speed).max(0.0)
+    }
 }
 
 /// A rule for the impacts of a body, a second switch beside its method.
@@ -35,6 +71,12 @@ impl Impact {
     /// Whether the rule makes a spring of the wall.
     pub(super) fn is_soft(&self) -> bool {
         self.rule == Rule::Penalty
+    }
+
+    /// Whether the rule takes the speed from the energy.
+    #[cfg(feature = "lab")]
+    pub(super) fn needs_energy(&self) -> bool {
+        self.rule == Rule::After(Turn::Energy)
     }
 
     /// Whether the rule finds the time of an impact within the step; others handle it at the end of the step.
@@ -160,6 +202,8 @@ impl Default for &'static Impact {
 /// A record of a body's impacts and flights.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Bounces {
+    /// The index of the coordinate that meets the lower wall.
+    pub coordinate: usize,
     /// The number of impacts since the start, or since the last input, edit or placement.
     pub impacts: u64,
     /// The time in seconds of the last impact, as the rule handled it.
@@ -191,7 +235,12 @@ impl Bounces {
 
     /// Counts from 0 again, after a change of the body.
     pub(super) fn restart(&mut self) {
-        *self = Self { depth: self.depth, ..Self::default() };
+        *self = Self { depth: self.depth, coordinate: self.coordinate, ..Self::default() };
+    }
+
+    /// Returns the height above the lower wall at the end of the last tick.
+    pub fn height(&self) -> f64 {
+        self.heights[2]
     }
 
     /// Forgets the heights of this flight.

@@ -17,6 +17,7 @@ use op::Op;
 use tape::Tape;
 
 mod compile;
+mod event;
 mod expression;
 mod fault;
 mod form;
@@ -48,13 +49,16 @@ pub use step_text::{
 };
 pub use step_text::{FrameInput, FrameOutput, LoopText};
 pub use tape::MAX_OPERATIONS;
-pub use text::{CoordinateText, LawText, Layout};
+pub use text::{CoordinateText, EventText, LawText, Layout};
 
 /// The maximum number of coordinates of a law. More could not be distinguished on a stage.
 pub const MAX_COORDINATES: usize = 16;
 
 /// The maximum number of constants of a law.
 pub const MAX_CONSTANTS: usize = 64;
+
+/// The maximum number of events of a law.
+pub const MAX_EVENTS: usize = 8;
 
 /// The units that a coordinate can have.
 pub const UNITS: [&str; 14] =
@@ -91,6 +95,10 @@ pub struct Equations {
     energy: Option<Tape>,
     exact: Option<Tape>,
     places: Option<Tape>,
+    when: Vec<Tape>,
+    then: Option<Tape>,
+    /// The coordinate of each event.
+    walls: Vec<usize>,
     is_linear: bool,
     angles: Vec<bool>,
     is_steered: [bool; 2],
@@ -119,7 +127,13 @@ impl Equations {
         let energy = tape(text.energy.as_ref().map(|_| compiler.energy()));
         let exact = tape(is_solved.then(|| compiler.exact()));
         let places = tape(is_placed.then(|| compiler.places()));
+        let has_events = !text.events.is_empty();
+        let when: Vec<Tape> =
+            (0..text.events.len()).filter_map(|i| tape(Some(compiler.when(i)))).collect();
+        let then = tape(has_events.then(|| compiler.then()));
         let Some(motion) = motion.filter(|_| faults.is_empty()) else { return Err(faults) };
+        let walls = event::coordinates_of(&text, &when)?;
+        event::check_count(&text, &motion)?;
         let moves = text.slots_of_motion();
         let is_angle = |input: usize| {
             let mut energy = energy.iter().filter(|tape| tape.reads(input));
@@ -135,6 +149,9 @@ impl Equations {
             energy,
             exact,
             places,
+            when,
+            then,
+            walls,
         })
     }
 
@@ -159,9 +176,9 @@ impl Equations {
     }
 
     /// Whether a full turn of this coordinate changes nothing, because it is used only as the argument of a sine,
-    /// cosine or tangent.
+    /// cosine or tangent, and no event is about it.
     pub fn is_angle(&self, coordinate: usize) -> bool {
-        self.angles[coordinate]
+        self.angles[coordinate] && !self.walls.contains(&coordinate)
     }
 
     /// Returns the text of a part.
@@ -174,6 +191,9 @@ impl Equations {
             Part::Exact(i) => text.coordinates[i].exact.as_deref().unwrap_or_default(),
             Part::Place(i, axis) => text.coordinates[i].at.as_ref().map_or("", |at| &at[axis]),
             Part::Energy => text.energy.as_deref().unwrap_or_default(),
+            Part::Event(i) => &text.events[i].name,
+            Part::When(i) => &text.events[i].when,
+            Part::Then(i, n) => &text.events[i].then[n].1,
         }
     }
 
@@ -225,6 +245,18 @@ impl Equations {
         self.write_inputs(registers, at);
         self.motion.evaluate(&mut registers.motion);
         self.read(registers, a);
+    }
+
+    /// Returns the acceleration of one coordinate. Never allocates.
+    pub(crate) fn acceleration_of(
+        &self,
+        registers: &mut Registers,
+        at: At<'_>,
+        coordinate: usize,
+    ) -> f64 {
+        self.write_inputs(registers, at);
+        self.motion.evaluate(&mut registers.motion);
+        registers.motion[self.motion.outputs[coordinate] as usize]
     }
 
     /// Overwrites `a` with the accelerations of the piece with these modes, continued beyond the piece's boundaries.

@@ -4,6 +4,8 @@
 //! The reference solution is not a method of the table, because it chooses its own substeps and its evaluations do not
 //! count.
 
+use std::cell::RefCell;
+
 use super::body::Body;
 use super::exact_since_start::ExactSinceStart;
 use super::integrators::{StepFailure, Stepped};
@@ -12,9 +14,11 @@ use super::state::{State, Vector, largest, nan_is_infinite};
 use super::system::{Counted, StateOf};
 
 use extrapolation::Extrapolation;
+use flights::Flights;
 use trajectory::{StepControl, Trajectory, TrajectoryEnd};
 
 mod extrapolation;
+mod flights;
 mod trajectory;
 
 /// The accuracy at which a reference solution aims. It is the error of the solution over the duration of a built-in
@@ -75,6 +79,8 @@ pub(super) struct Reference<V> {
     largest_difference: [f64; 2],
     /// The largest velocity and the largest acceleration since the body was placed.
     fastest: [f64; 2],
+    /// A body with walls has its flights.
+    flights: Option<Box<RefCell<Flights<V>>>>,
 }
 
 /// The two solutions, which hold some forty vectors of the body's coordinates.
@@ -110,7 +116,8 @@ impl<V: Vector> Reference<V> {
         let solutions = (!is_beyond_reference(body)).then(|| Solutions::new(state));
         let allowance = Allowance::new(EVALUATIONS_PER_CALL, MAX_SAVED_EVALUATIONS);
         let exact = ExactSinceStart::new(body, t, state);
-        Self { exact, ..Self::with_allowance(solutions, allowance) }
+        let flights = body.wall(0, t).map(|_| Box::new(RefCell::new(Flights::new(t, state))));
+        Self { exact, flights, ..Self::with_allowance(solutions, allowance) }
     }
 
     fn with_allowance(solutions: Option<Box<Solutions<V>>>, allowance: Allowance) -> Self {
@@ -123,6 +130,7 @@ impl<V: Vector> Reference<V> {
             elapsed: 0.0,
             largest_difference: [0.0; 2],
             fastest: [0.0; 2],
+            flights: None,
         }
     }
 
@@ -222,10 +230,12 @@ impl<B: Body> Propagator<B> for Reference<B::Vector> {
 
     fn restart(&mut self, t: f64, is_placing: bool, body: &B, state: &StateOf<B>) {
         if is_placing {
-            let Self { exact, solutions, allowance: Allowance { per_call, most, .. }, .. } = self;
-            let (exact, solutions) = (exact.take(), solutions.take());
+            let Self {
+                exact, solutions, allowance: Allowance { per_call, most, .. }, flights, ..
+            } = self;
+            let (exact, solutions, flights) = (exact.take(), solutions.take(), flights.take());
             let allowance = Allowance::new(*per_call, *most);
-            *self = Self { exact, ..Self::with_allowance(solutions, allowance) };
+            *self = Self { exact, flights, ..Self::with_allowance(solutions, allowance) };
         } else if let Some(solutions) = self.solutions.as_mut().filter(|_| self.has_begun) {
             // Keeps the difference of the two solutions.
             let Solutions { solution, check, difference, .. } = &mut **solutions;
@@ -234,9 +244,16 @@ impl<B: Body> Propagator<B> for Reference<B::Vector> {
             check.begin_beside(body, t, solution, difference);
         }
         self.failed = None;
+        if let Some(flights) = &mut self.flights {
+            flights.get_mut().begin(t, state);
+        }
         if let Some(exact) = &mut self.exact {
             exact.jump(t, is_placing, state);
         }
+    }
+
+    fn true_bounce(&self, body: &B, impact: u64) -> Option<[f64; 2]> {
+        self.flights.as_ref()?.borrow_mut().bounce(body, impact)
     }
 
     fn is_closed_form(&self) -> bool {

@@ -55,11 +55,14 @@ pub(super) fn draw(
     let since_s = past.changed_s();
     let of_lane = apex(moment.history(lane, index).since(since_s).map(|sample| sample.swept));
     let of_truth = apex(past.truth_curves()[index].since(since_s).map(|sample| sample.swept));
+    let own = &lane.lane.bodies()[index].stepper;
     let bounced = |bounces: &Bounces| {
         let truth = &moment.studio.race().truth().bodies()[index].stepper;
-        Some((bounces.apex?, truth.true_bounce(bounces.apex_after)?[1]))
+        let floor = own.q()[bounces.coordinate] - bounces.height();
+        let heights = [bounces.apex?, truth.true_bounce(bounces.apex_after)?[1]];
+        Some((floor + heights[0], floor + heights[1]))
     };
-    let heights = match lane.lane.bodies()[index].stepper.bounces() {
+    let heights = match own.bounces() {
         Some(bounces) => bounced(bounces),
         None => of_lane.zip(of_truth),
     };
@@ -135,14 +138,16 @@ pub(super) fn strip(
     }
     let since_s = moment.studio.past().changed_s();
     let of = |lane: &Entrant| flights(moment.history(lane, index).since(since_s));
-    let [left, floor] = camera.points(DVec2::new(half_m.x, 0.0));
+    let own = &front.lane.bodies()[index].stepper;
+    let base = own.bounces().map_or(0.0, |it| own.q()[it.coordinate] - it.height());
+    let [left, floor] = camera.points(DVec2::new(half_m.x, base));
     let room = (camera.rect.max[0] - 2.0 * ASIDE - left) / PITCH;
     let (most, own) = (room.max(0.0) as usize, of(front));
     if most < FEWEST {
         return;
     }
     let head = captions::foot_of_verdicts(camera.rect) + NUMBER;
-    let top = |height: f64| camera.points(DVec2::new(0.0, height))[1].clamp(head, floor);
+    let top = |height: f64| camera.points(DVec2::new(0.0, base + height))[1].clamp(head, floor);
     let others = lanes.iter().filter(|lane| lane.id != front.id);
     let others: Vec<_> =
         others.map(|lane| (of(lane), moment.style(moment.studio.entry(lane)).0)).collect();

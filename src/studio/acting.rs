@@ -8,10 +8,10 @@ use super::step::Step;
 use crate::run::race::{Entrant, Mode, equal_cost};
 use crate::run::{MenuIndex, StartSettings};
 use crate::scene::{Action, LaneId, LaneSpec};
-use crate::sim::IMPACTS;
 use crate::sim::bodies::TakesEffect;
 use crate::sim::integrators::Method;
 use crate::sim::number::round;
+use crate::sim::{IMPACTS, Impact};
 
 /// Performs an action on the run by hand.
 pub(super) fn act(studio: &mut Studio, action: Action) {
@@ -117,7 +117,10 @@ pub(super) fn next_impact(studio: &mut Studio) {
     }
     let Entrant { id: lane, spec, .. } = *studio.selected();
     let mut around = IMPACTS.iter().cycle().skip_while(|&it| it != spec.impact).skip(1);
-    let Some(impact) = around.find(|it| it.fits(spec.method)).filter(|it| *it != spec.impact)
+    let bodies = &deck.scene().bodies;
+    let follow = |it: &Impact| bodies.iter().all(|body| body.kind.impact_refusal(it).is_none());
+    let Some(impact) =
+        around.find(|it| it.fits(spec.method) && follow(it)).filter(|it| *it != spec.impact)
     else {
         let name = spec.method.name;
         return studio

@@ -66,10 +66,10 @@ impl<'t> Table<'t> {
         }
     }
 
-    /// Reads the table of an entry of [`Wanted::Coordinates`].
+    /// Reads the table of an entry of [`Wanted::Coordinates`] or [`Wanted::Events`].
     pub(crate) fn table_of(&mut self, entry: &Named<'t>, wanted: &Wanted) -> Option<Table<'t>> {
         match (entry.value.get_ref().as_table(), wanted) {
-            (Some(entries), Wanted::Coordinates(place)) => {
+            (Some(entries), Wanted::Coordinates(place) | Wanted::Events(place)) => {
                 Some(self.subtable(Place::Within(place), entry.span.clone(), entries))
             }
             _ => self.wrong_type_of(format!("`{}`", clip(entry.key)), entry.value, wanted),
@@ -102,13 +102,41 @@ impl<'t> Table<'t> {
         Some(TextBlock { text, ..written })
     }
 
+    /// Reads the expressions of a table by name, one or more. Each name comes with its bytes.
+    #[expect(clippy::type_complexity, reason = "a named expression is read in one place")]
+    pub(crate) fn expressions(
+        &mut self,
+        field: &Field,
+    ) -> Option<Vec<((String, Range<usize>), TextBlock)>> {
+        let entries = self.entries(field)?;
+        if entries.is_empty() {
+            let what = format!("`{}` is empty", field.key);
+            self.report_fault(self.span(field.key), what, field.wanted.remedy());
+            return None;
+        }
+        let named = |entry: &Named<'t>| {
+            let Some(text) = entry.value.get_ref().as_str() else {
+                let subject = format!("`{}`", clip(entry.key));
+                return self.wrong_type_of(subject, entry.value, &Wanted::Expression);
+            };
+            let written = self.block(text, entry.value.span());
+            Some(((entry.key.to_owned(), entry.span.clone()), written))
+        };
+        let read: Vec<_> = entries.iter().map(named).collect();
+        read.into_iter().collect()
+    }
+
+    /// Returns a text at these bytes of the file.
+    fn block(&self, text: &str, span: Range<usize>) -> TextBlock {
+        let start = self.text[span.clone()].find(text).map(|at| span.start + at);
+        TextBlock { text: text.to_owned(), span, start }
+    }
+
     /// Reads a text of several lines.
     pub(crate) fn text_block(&mut self, field: &Field) -> Option<TextBlock> {
         let value = self.value(field)?;
         let Some(text) = value.get_ref().as_str() else { return self.wrong_type(field, value) };
-        let span = value.span();
-        let start = self.text[span.clone()].find(text).map(|at| span.start + at);
-        Some(TextBlock { text: text.to_owned(), span, start })
+        Some(self.block(text, value.span()))
     }
 
     /// Reads the names in a list of strings, with their bytes.

@@ -3,6 +3,7 @@
 //! The true impacts under gravity are a geometric series, so that any of them is known without those before it. With
 //! drag each flight is solved in turn.
 
+use std::array::from_ref;
 use std::cell::RefCell;
 
 use super::prelude::*;
@@ -51,9 +52,6 @@ const PARAMETERS: [Of; 7] = [
         .symbol("K")
         .about("the change of velocity by one kick"),
 ];
-
-/// Frequency of a soft wall in hertz: k is 898 per second squared.
-const SOFT_HZ: f64 = 4.77;
 
 /// The largest number of flights that a truth follows one by one. After more flights the state is not known: under drag
 /// alone their number grows exponentially with time.
@@ -345,15 +343,8 @@ impl System for Ball {
     fn acceleration(&self, _t: f64, y: &f64, v: &f64, a: &mut f64) {
         *a = -self.gravity - self.drag * v;
         if self.is_soft {
-            let log = libm::log(self.restitution.max(1e-300));
-            let turn = std::f64::consts::PI;
-            let soft = 2.0 * turn * SOFT_HZ;
-            let damping = -2.0 * soft * log / (turn * turn + log * log).sqrt();
-            let push = |depth: f64, v: f64| (soft * soft * depth - damping * v).max(0.0);
-            if *y < 0.0 {
-                *a += push(-y, *v);
-            } else if self.ceiling > 0.0 && *y > self.ceiling {
-                *a -= push(y - self.ceiling, -v);
+            for wall in (0..).map_while(|index| self.wall(index, 0.0)) {
+                *a += wall.soft_push(from_ref(y), from_ref(v));
             }
         }
     }
@@ -370,9 +361,14 @@ impl Body for Ball {
         State { q: self.height, v: self.speed }
     }
 
-    fn walls(&self, _t: f64) -> [Option<Wall>; 2] {
-        let wall = |at| Wall { at, velocity: 0.0, restitution: self.restitution };
-        [Some(wall(0.0)), (self.ceiling > 0.0).then(|| wall(self.ceiling))]
+    fn wall(&self, index: usize, _t: f64) -> Option<Wall> {
+        let (side, at) = match index {
+            0 => (1.0, 0.0),
+            1 if self.ceiling > 0.0 => (-1.0, self.ceiling),
+            _ => return None,
+        };
+        let restitution = self.restitution;
+        Some(Wall { coordinate: 0, side, at, velocity: 0.0, acceleration: 0.0, restitution })
     }
 
     fn soften(&mut self, is_soft: bool) {

@@ -7,6 +7,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 use crate::batch::{Batch, InstructionSet, NewBatch};
 use crate::body::Body;
 use crate::body_stepper::stepper;
+use crate::impact::Impact;
 use crate::law::{Equations, shown_unit};
 use crate::net_plan::NetPlan;
 use crate::parameter::{Fault, Parameter, ParameterOf, Text};
@@ -205,6 +206,14 @@ impl Kind {
     /// Returns the equations, if this is the kind of a law.
     pub fn law(&self) -> Option<&Arc<Equations>> {
         if let Origin::Law(equations) = &self.origin { Some(equations) } else { None }
+    }
+
+    /// Returns the reason why such bodies do not follow a rule for impacts, in words; `None` if they may, or meet no
+    /// wall.
+    pub fn impact_refusal(&self, impact: &Impact) -> Option<String> {
+        let law = self.law().filter(|_| self.has_walls && impact.needs_energy())?;
+        let why = "needs the `energy` of the law, which has none";
+        law.text().energy.is_none().then(|| format!("the rule {impact:?} {why}"))
     }
 
     /// Returns the plan, if this is the kind of a net.

@@ -6,11 +6,13 @@ use std::sync::Arc;
 use super::claims::{Checked, Claimant, FalseClaims};
 use super::prelude::*;
 use crate::body::{Distances, NO_BOUNDARIES, Piece};
+use crate::impact::Wall;
 use crate::law::{At, Equations, Layout, Registers};
 
 mod claims;
 mod copies;
 mod kind;
+mod walls;
 
 pub use claims::check_law;
 pub use kind::law_kind;
@@ -24,6 +26,8 @@ pub struct Law {
     /// Throttle and rudder, from -1 to 1.
     steering: [f64; 2],
     registers: RefCell<Registers>,
+    /// Whether the walls are springs.
+    is_soft: bool,
     checked: Checked,
 }
 
@@ -42,6 +46,7 @@ impl Law {
             values: values.into(),
             steering: [1.0, 0.0],
             registers: RefCell::new(registers),
+            is_soft: false,
             checked: Checked::default(),
         }
     }
@@ -104,10 +109,15 @@ impl System for Law {
     #[inline]
     fn acceleration(&self, t: f64, q: &Vec<f64>, v: &Vec<f64>, a: &mut Vec<f64>) {
         self.equations.accelerate(&mut self.registers.borrow_mut(), self.at(t, q, v), a);
+        if self.is_soft {
+            self.soft_pushes(t, [q, v], a);
+        }
     }
 }
 
 impl Body for Law {
+    const HAS_WALLS: bool = true;
+
     fn with_parameters(mut self, values: &[f64]) -> Self {
         self.write(values);
         // The claims are checked before the first tick, which must not allocate.
@@ -154,21 +164,56 @@ impl Body for Law {
         self.equations.is_angle(coordinate)
     }
 
-    fn switches(&self) -> usize {
+    fn wall(&self, index: usize, t: f64) -> Option<Wall> {
+        let wall = self.equations.wall(&mut self.registers.borrow_mut(), index, t)?;
+        Some(if self.is_soft { self.with_restitution(wall, index, t) } else { wall })
+    }
+
+    fn turn(&self, wall: usize, t: f64, State { q, v }: &mut State<Vec<f64>>) -> bool {
+        self.equations.turn(&mut self.registers.borrow_mut(), (wall, t), q, v);
+        true
+    }
+
+    fn soften(&mut self, is_soft: bool) {
+        self.is_soft = is_soft && self.equations.events() > 0;
+    }
+
+    fn first_wall(&self) -> usize {
         self.equations.switches()
+    }
+
+    fn cross(
+        &self,
+        piece: &mut Piece,
+        [switch, side]: [usize; 2],
+        t: f64,
+        state: &mut State<Vec<f64>>,
+    ) -> bool {
+        if let Some(index) = switch.checked_sub(self.first_wall()) {
+            return self.meet(index, &mut piece.modes[switch], t, state);
+        }
+        piece.modes[switch] = self.neighbour(switch, piece.modes[switch], side);
+        false
+    }
+
+    fn switches(&self) -> usize {
+        self.equations.switches() + self.equations.events()
     }
 
     fn piece(&self, t: f64, state: &State<Vec<f64>>) -> Piece {
         let mut piece = Piece::FIRST;
         let at = self.at(t, &state.q, &state.v);
         self.equations.write_modes(&mut self.registers.borrow_mut(), at, &mut piece.modes);
+        self.write_rests(t, state, &mut piece);
         piece
     }
 
     fn distances_to_ends(&self, piece: &Piece, t: f64, state: &State<Vec<f64>>) -> Distances {
         let mut distances = NO_BOUNDARIES;
-        let (at, registers) = (self.at(t, &state.q, &state.v), &mut self.registers.borrow_mut());
+        let at = self.at(t, &state.q, &state.v);
+        let registers = &mut self.registers.borrow_mut();
         self.equations.write_distances(&piece.modes, registers, at, &mut distances);
+        self.write_heights(registers, piece, at, &mut distances);
         distances
     }
 
@@ -183,6 +228,7 @@ impl Body for Law {
     fn acceleration_on(&self, piece: &Piece, t: f64, q: &Vec<f64>, v: &Vec<f64>, a: &mut Vec<f64>) {
         let (at, registers) = (self.at(t, q, v), &mut self.registers.borrow_mut());
         self.equations.accelerate_on(&piece.modes, registers, at, a);
+        self.hold(registers, piece, t, a);
     }
 
     fn energy(&self, state: &State<Vec<f64>>) -> Option<f64> {

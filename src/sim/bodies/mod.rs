@@ -78,6 +78,11 @@ pub fn kind(id: &str) -> Option<&'static Arc<Kind>> {
 /// Returns the reason why `method` does not step a body of `kind` with these parameter values; `None` if it does. The
 /// method's [card](crate::integrators::Only) or the body's [class](Kind::class) gives the reason.
 pub fn incompatibility(method: &Method, kind: &Kind, values: &[f64]) -> Option<&'static str> {
+    if method.has_own_floor && kind.law().is_some() && !kind.has_walls {
+        return Some(
+            "its lines have a floor at 0, and the law has none; give it `[law.events.floor]`",
+        );
+    }
     let only = method.only?;
     let is_of = |order: u32| {
         let parameter = kind.parameter(LAW_ORDER);

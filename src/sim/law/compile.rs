@@ -48,6 +48,13 @@ impl PartScope<'_> {
         match self.part {
             Part::Acceleration(_) => slot < constants.end,
             Part::Energy => moves.contains(&slot) || constants.contains(&slot),
+            Part::When(_) => {
+                let n = self.text.coordinates.len();
+                slot == T
+                    || (moves.start..moves.start + n).contains(&slot)
+                    || constants.contains(&slot)
+            }
+            Part::Then(..) => slot == T || moves.contains(&slot) || constants.contains(&slot),
             Part::Place(..) => {
                 moves.contains(&slot) && slot - moves.start < self.text.coordinates.len()
                     || constants.contains(&slot)
@@ -79,6 +86,10 @@ impl Scope for PartScope<'_> {
             Part::Place(..) => {
                 format!("a place depends on coordinates and constants alone, not on `{name}`")
             }
+            Part::When(_) => {
+                format!("a wall is where a coordinate is, and does not depend on `{name}`")
+            }
+            Part::Then(..) => format!("an impact does not depend on `{name}`"),
             _ if self.text.slots_of_motion().contains(&slot) => {
                 format!("`exact` gives `{name}`, by `t`, constants and starts such as `{name}0`")
             }
@@ -124,6 +135,19 @@ impl Compiler<'_> {
         let parts =
             placed.flat_map(|(i, at)| [0, 1].map(|axis| (Part::Place(i, axis), &*at[axis])));
         self.tape(parts.collect())
+    }
+
+    /// Returns the tape of the place of an event.
+    pub(super) fn when(&self, event: usize) -> Compiled {
+        self.tape(vec![(Part::When(event), &*self.text.events[event].when)])
+    }
+
+    /// Returns the tape of the new velocities, event by event.
+    pub(super) fn then(&self) -> Compiled {
+        let rows = self.text.events.iter().enumerate();
+        let then =
+            rows.flat_map(|(i, event)| (0..).zip(&event.then).map(move |(n, it)| (i, n, it)));
+        self.tape(then.map(|(i, n, (_, text))| (Part::Then(i, n), &**text)).collect())
     }
 
     fn tape(&self, parts: Vec<(Part, &str)>) -> Compiled {

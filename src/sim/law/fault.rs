@@ -17,6 +17,12 @@ pub enum Part {
     Place(usize, usize),
     /// The energy.
     Energy,
+    /// The event with this index.
+    Event(usize),
+    /// Where the event with this index fires.
+    When(usize),
+    /// A new velocity of the event with the first index.
+    Then(usize, usize),
 }
 
 /// A fault of a law's text. Messages are in lower case.

@@ -12,6 +12,8 @@ pub struct Registers {
     pub(super) energy: Vec<f64>,
     pub(super) exact: Vec<Jet>,
     pub(super) places: Vec<f64>,
+    pub(super) when: Vec<Vec<Jet>>,
+    pub(super) then: Vec<f64>,
 }
 
 impl Registers {
@@ -23,6 +25,8 @@ impl Registers {
             energy: vec![0.0; slots(equations.energy.as_ref())],
             exact: vec![[0.0; 3]; slots(equations.exact.as_ref())],
             places: vec![0.0; slots(equations.places.as_ref())],
+            when: equations.when.iter().map(|tape| vec![[0.0; 3]; tape.slots]).collect(),
+            then: vec![0.0; slots(equations.then.as_ref())],
         };
         registers.set(equations, values);
         registers
@@ -35,14 +39,16 @@ impl Registers {
             (Some(&equations.motion), &mut self.motion),
             (equations.energy.as_ref(), &mut self.energy),
             (equations.places.as_ref(), &mut self.places),
+            (equations.then.as_ref(), &mut self.then),
         ] {
             if let Some(tape) = tape {
                 slots[from..from + values.len()].copy_from_slice(values);
                 tape.prepare::<1>(slots.as_chunks_mut().0);
             }
         }
-        if equations.exact.is_some() {
-            for (slot, &value) in self.exact[from..].iter_mut().zip(values) {
+        let exact = equations.exact.is_some().then_some(&mut self.exact);
+        for jets in exact.into_iter().chain(&mut self.when) {
+            for (slot, &value) in jets[from..].iter_mut().zip(values) {
                 *slot = [value, 0.0, 0.0];
             }
         }
@@ -50,9 +56,10 @@ impl Registers {
 
     /// Returns the memory on the heap, in bytes.
     pub fn heap_bytes(&self) -> usize {
-        let tapes = [&self.motion, &self.energy, &self.places];
+        let tapes = [&self.motion, &self.energy, &self.places, &self.then];
         tapes.map(|slots| size_of_val(&slots[..])).iter().sum::<usize>()
             + size_of_val(&self.exact[..])
+            + self.when.iter().map(|slots| size_of_val(&slots[..])).sum::<usize>()
     }
 }
 

@@ -11,6 +11,8 @@ pub struct LawText {
     pub constants: Vec<String>,
     /// The coordinates, one or more.
     pub coordinates: Vec<CoordinateText>,
+    /// The events, at most [`MAX_EVENTS`](super::MAX_EVENTS).
+    pub events: Vec<EventText>,
     /// The conserved energy in joules, of coordinates, velocities and constants.
     pub energy: Option<String>,
     /// The indices of the coordinates drawn as x and y of one point.
@@ -51,6 +53,20 @@ pub struct CoordinateText {
     /// The drawing position of the coordinate as expressions of coordinates and constants, with x to the right and y
     /// up, in metres.
     pub at: Option<[String; 2]>,
+}
+
+/// The text of an event: a wall, and how the law leaves it.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub struct EventText {
+    /// The name of the event.
+    pub name: String,
+    /// A coordinate, its opposite or a multiple, plus an expression of constants and `t`. The law meets the wall where
+    /// this falls through 0.
+    pub when: String,
+    /// Whether it falls; otherwise the law meets the wall where it rises.
+    pub falls: bool,
+    /// The coordinates whose velocities change, each with the new velocity by the old ones.
+    pub then: Vec<(usize, String)>,
 }
 
 /// The placement of a law's first coordinates in space, for drawing.

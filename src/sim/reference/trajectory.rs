@@ -107,7 +107,7 @@ pub(super) enum TrajectoryEnd {
 #[derive(Clone, Debug)]
 pub(super) struct Trajectory<V> {
     /// The current state, with angles reduced by full turns.
-    at: State<V>,
+    pub(super) at: State<V>,
     /// The low half of `at` in double-double precision.
     low: State<V>,
     /// The number of full turns removed from each coordinate; a whole number.
@@ -119,6 +119,8 @@ pub(super) struct Trajectory<V> {
     /// The largest distance of each switch to a boundary so far; 0 if the force cannot jump.
     extents: [f64; MAX_SWITCHES],
     control: StepControl,
+    /// The times (s) of jumps of the state, if somebody reads them.
+    pub(super) landings: Option<Vec<f64>>,
 }
 
 impl<V: Vector> Trajectory<V> {
@@ -132,6 +134,7 @@ impl<V: Vector> Trajectory<V> {
             piece: Piece::FIRST,
             extents: [0.0; MAX_SWITCHES],
             control,
+            landings: None,
         }
     }
 
@@ -145,6 +148,11 @@ impl<V: Vector> Trajectory<V> {
         self.extents = [0.0; MAX_SWITCHES];
         self.unwind(body);
         self.piece = body.piece(t, &self.at);
+    }
+
+    /// Whether the body rests on a wall, in the mode other than 0.
+    pub(super) fn rests<B: Body<Vector = V>>(&self, body: &B) -> bool {
+        self.piece.modes[..body.switches()].iter().skip(body.first_wall()).any(|mode| *mode != 0)
     }
 
     /// Starts at the state of `other` plus `offset`, at time `t` (s).
@@ -265,13 +273,14 @@ impl<V: Vector> Trajectory<V> {
             return StepOutcome::Rejected;
         };
         let switches = body.switches();
+        let counts = [switches, body.first_wall()];
         let (mut begun, mut ended) = (NO_BOUNDARIES, NO_BOUNDARIES);
         if switches > 0 {
             begun = body.distances_to_ends(&self.piece, t, &self.at);
             ended = body.distances_to_ends(&self.piece, t + h, work.end(&self.at));
             self.extend(body, &ended);
         }
-        if let Some(crossing) = self.first_crossing(switches, &begun, &ended) {
+        if let Some(crossing) = self.first_crossing(counts, &begun, &ended) {
             let found = self.find_first_boundary(body, work, t, h, &begun, crossing);
             let Some((part, Crossing { switch, side, .. })) = found else {
                 return StepOutcome::Rejected;
@@ -279,8 +288,14 @@ impl<V: Vector> Trajectory<V> {
             if part > 0.0 {
                 self.add(work.added());
             }
-            let mode = &mut self.piece.modes[switch];
-            *mode = body.neighbour(switch, *mode, side);
+            let at_s = t + part * h;
+            if body.cross(&mut self.piece, [switch, side], at_s, &mut self.at) {
+                self.low.q.components_mut().fill(0.0);
+                self.low.v.components_mut().fill(0.0);
+                if let Some(landings) = &mut self.landings {
+                    landings.push(at_s);
+                }
+            }
             return StepOutcome::AtBoundary { part };
         }
         if halvings < MAX_HALVINGS && self.leaves_piece(body, &work.min_distances) {
@@ -305,13 +320,14 @@ impl<V: Vector> Trajectory<V> {
     /// the step ends beyond it and did not start further beyond it.
     fn first_crossing(
         &self,
-        switches: usize,
+        [switches, first_wall]: [usize; 2],
         begun: &Distances,
         ended: &Distances,
     ) -> Option<Crossing> {
         let mut first: Option<(f64, Crossing)> = None;
         for switch in 0..switches {
-            let noise = CROSSING_ROUNDING * self.extents[switch];
+            let is_wall = switch >= first_wall;
+            let noise = if is_wall { 0.0 } else { CROSSING_ROUNDING * self.extents[switch] };
             for side in 0..2 {
                 let (begun, ended) = (begun[switch][side], ended[switch][side]);
                 if ended < -noise && ended < begun {
@@ -352,10 +368,17 @@ impl<V: Vector> Trajectory<V> {
             if crossing.begun < 0.0 {
                 return Some((0.0, crossing));
             }
+            // After an impact the way up is no impact, and a shorter step ends above the wall.
+            if crossing.begun == 0.0
+                && let Some(index) = crossing.switch.checked_sub(body.first_wall())
+            {
+                let speed = body.wall(index, t)?.speed(self.at.v.components());
+                return (speed <= 0.0).then_some((0.0, crossing));
+            }
             whole *= self.find_boundary(body, work, t, whole * h, crossing)?;
             let mut ended = body.distances_to_ends(&self.piece, t + whole * h, work.end(&self.at));
             ended[crossing.switch][crossing.side] = f64::INFINITY;
-            match self.first_crossing(body.switches(), begun, &ended) {
+            match self.first_crossing([body.switches(), body.first_wall()], begun, &ended) {
                 Some(earlier) => crossing = earlier,
                 None => return Some((whole, crossing)),
             }

@@ -8,6 +8,7 @@ use regatta::sim::{Solver, Stepper};
 use regatta::studio::TICK_LADDER;
 
 mod drawn;
+mod floor;
 mod language;
 mod random;
 mod rate;

@@ -177,6 +177,7 @@ fn a_hundred_thousand_mutated_expressions_are_read_or_refused_in_place() {
             at: None,
         };
         let law = LawText {
+            events: Vec::new(),
             constants: vec!["k".into()],
             coordinates: vec![coordinate],
             energy: None,

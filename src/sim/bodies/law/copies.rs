@@ -33,7 +33,9 @@ pub(super) fn batch(
     let law: &Law = body.downcast_ref()?;
     let values = known(&law.equations, &law.values).into();
     let copies = LawCopies { equations: law.equations.clone(), values, steering: law.steering };
-    (law.coordinates() == 1).then(|| Batch::with(&copies, solver, starts.into_iter(), set))
+    let has_walls = law.equations.events() > 0;
+    (law.coordinates() == 1 && !has_walls)
+        .then(|| Batch::with(&copies, solver, starts.into_iter(), set))
 }
 
 /// A block of [`LawCopies`].

@@ -9,6 +9,7 @@ use crate::body::Body;
 use crate::law::{CoordinateText, Equations, LawFault, LawText};
 use crate::parameter::{Fault, Parameter, Range, TakesEffect, Text};
 use crate::state::quotient;
+use crate::system::BodyClass;
 use crate::system::System;
 
 /// Returns the kind of bodies that move by this law. The parameters of the kind are the constants, then the starts
@@ -43,6 +44,11 @@ pub fn law_kind(text: LawText) -> Result<Arc<Kind>, Vec<LawFault>> {
         leading: leading.unwrap_or_else(|| first_key.clone()),
         origin: Origin::Law(equations.clone()),
         batch: super::copies::batch,
+        has_walls: equations.events() > 0,
+        class: match equations.events() {
+            0 => Law::CLASS,
+            _ => BodyClass::NoEngine("it meets walls of its own, and engines bounce a ball only"),
+        },
         ..Kind::checked(template, move |mut law, values| {
             law.write(values);
             check_start(&law).map_err(|fault| Fault {

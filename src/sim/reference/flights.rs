@@ -1,0 +1,152 @@
+//! The flights of a reference solution between its impacts, which run ahead of it.
+
+use super::extrapolation::Extrapolation;
+use super::trajectory::{StepControl, Trajectory};
+use crate::body::Body;
+use crate::state::{State, Vector, largest};
+
+/// The seconds by which the flights are followed at once. Of flights within one stretch, only the last has a height.
+const STRETCH_S: f64 = 1.0 / 64.0;
+
+/// The largest number of evaluations by which the flights of one start are followed.
+const MAX_EVALUATIONS: u64 = 300_000;
+
+/// The difference of two solutions with other steps, in parts of the largest coordinate, at which a chaotic motion is
+/// no longer known.
+const MAX_DIFFERENCE: f64 = 1e-4;
+
+/// The impacts of a body from a start, as far as they have been asked for.
+#[derive(Clone, Debug)]
+pub(super) struct Flights<V> {
+    start: (f64, State<V>),
+    /// `None` before the first question.
+    ahead: Option<Box<Ahead<V>>>,
+}
+
+#[derive(Clone, Debug)]
+struct Ahead<V> {
+    trajectory: Trajectory<V>,
+    /// The same with other steps.
+    check: Trajectory<V>,
+    difference: State<V>,
+    largest: f64,
+    has_ended: bool,
+    work: Extrapolation<V>,
+    stretches: u32,
+    /// The time (s) of each impact, first the start, with the height of the flight after it above the first wall.
+    found: Vec<[f64; 2]>,
+}
+
+impl<V: Vector> Flights<V> {
+    pub(super) fn new(t: f64, state: &State<V>) -> Self {
+        Self { start: (t, state.clone()), ahead: None }
+    }
+
+    /// Begins again from another state at time `t` (s).
+    pub(super) fn begin(&mut self, t: f64, state: &State<V>) {
+        self.start.0 = t;
+        self.start.1.assign(state);
+        self.ahead = None;
+    }
+
+    /// Returns the time (s) of an impact, and the height of the flight after it, NaN if that is not known.
+    pub(super) fn bounce<B: Body<Vector = V>>(
+        &mut self,
+        body: &B,
+        impact: u64,
+    ) -> Option<[f64; 2]> {
+        let (t, state) = &self.start;
+        let ahead = self.ahead.get_or_insert_with(|| {
+            let mut trajectory = Trajectory::new(state, StepControl::Long);
+            trajectory.begin(body, *t, state);
+            trajectory.landings = Some(Vec::new());
+            let mut check = Trajectory::new(state, StepControl::Uneven);
+            check.begin(body, *t, state);
+            let mut ahead = Ahead {
+                trajectory,
+                check,
+                difference: state.clone(),
+                largest: 0.0,
+                has_ended: false,
+                work: Extrapolation::new(state),
+                stretches: 0,
+                found: Vec::new(),
+            };
+            ahead.take_off(body, *t);
+            Box::new(ahead)
+        });
+        let wanted = usize::try_from(impact).ok()?;
+        let has = |ahead: &Ahead<V>| {
+            let is_flown = ahead.found.get(wanted).is_some_and(|[_, height]| !height.is_nan());
+            is_flown || ahead.found.len() > wanted + 1
+        };
+        while !has(ahead) && !ahead.has_ended && !ahead.trajectory.rests(body) {
+            ahead.has_ended = ahead.go_on(body, *t).is_none();
+        }
+        ahead.found.get(wanted).copied()
+    }
+}
+
+impl<V: Vector> Ahead<V> {
+    /// Adds an impact at time `t` (s), whose flight begins at its top if it does not rise.
+    fn take_off<B: Body<Vector = V>>(&mut self, body: &B, t: f64) {
+        let rises =
+            body.wall(0, t).is_some_and(|wall| wall.speed(self.trajectory.at.v.components()) > 0.0);
+        let height = if rises { f64::NAN } else { self.height(body, t) };
+        self.found.push([t, height]);
+    }
+
+    fn height<B: Body<Vector = V>>(&self, body: &B, t: f64) -> f64 {
+        body.wall(0, t).map_or(f64::NAN, |wall| wall.height(self.trajectory.at.q.components()))
+    }
+
+    /// Follows one stretch. Returns `None` if it takes too much work, or the motion is no longer known.
+    fn go_on<B: Body<Vector = V>>(&mut self, body: &B, start_s: f64) -> Option<()> {
+        let t = start_s + STRETCH_S * f64::from(self.stretches);
+        let wall = body.wall(0, t)?;
+        self.stretches += 1;
+        let before = self.trajectory.clone();
+        let Self { trajectory, check, difference, work, .. } = self;
+        trajectory.advance(body, t, STRETCH_S, work, MAX_EVALUATIONS).ok()?;
+        check.advance(body, t, STRETCH_S, work, MAX_EVALUATIONS).ok()?;
+        trajectory.subtract(check, difference);
+        self.largest = self.largest.max(largest(trajectory.at.q.components()));
+        if largest(difference.q.components()) > MAX_DIFFERENCE * self.largest {
+            return None;
+        }
+        let landed = std::mem::take(trajectory.landings.as_mut()?);
+        let has_peaked = wall.speed(before.at.v.components()) > 0.0
+            && wall.speed(trajectory.at.v.components()) <= 0.0;
+        if let Some(last) = self.found.last_mut()
+            && last[1].is_nan()
+            && (has_peaked || !landed.is_empty() && wall.speed(before.at.v.components()) > 0.0)
+        {
+            last[1] = top(body, before, t, work).unwrap_or(f64::NAN);
+        }
+        self.found.extend(landed.into_iter().map(|at_s| [at_s, f64::NAN]));
+        Some(())
+    }
+}
+
+/// Returns the height of a flight near its top, where the body of the trajectory is at time `t` (s).
+fn top<B: Body>(
+    body: &B,
+    mut trajectory: Trajectory<B::Vector>,
+    mut t: f64,
+    work: &mut Extrapolation<B::Vector>,
+) -> Option<f64> {
+    let mut a = trajectory.at.v.clone();
+    for _ in 0..8 {
+        let wall = body.wall(0, t)?;
+        let State { q, v } = &trajectory.at;
+        body.acceleration(t, q, v, &mut a);
+        let push = wall.side * (a.components()[wall.coordinate] - wall.acceleration);
+        let left = -wall.speed(v.components()) / push;
+        if left.abs() < 1e-12 {
+            break;
+        }
+        trajectory.advance(body, t, left, work, MAX_EVALUATIONS).ok()?;
+        t += left;
+    }
+    Some(body.wall(0, t)?.height(trajectory.at.q.components()))
+}

@@ -1,0 +1,213 @@
+//! Events of laws: walls at which velocities turn, with a truth that stays above them.
+
+use regatta::scene::{LaneSpec, Scene};
+use regatta::sim::integrators::method;
+use regatta::sim::{IMPACTS, Solver, Stepper, impact, own_method};
+
+use super::{body, parse, stepper};
+use crate::dice::Dice;
+
+fn falling(start: &str, acceleration: &str, e: f64, floor: &str) -> String {
+    format!(
+        "[[law]]\ndraw = 'vertical'\nconstants = {{ g = 9.81, e = {e} }}\n[law.coordinates.y]\n{start}\n\
+         acceleration = '{acceleration}'\n[law.events.floor]\nwhen = '{floor}'\nthen = {{ vy = '-e*vy' }}\n"
+    )
+}
+
+fn after(text: &str, solver: Solver, seconds: f64, hz: u32) -> Box<dyn Stepper> {
+    let mut body = stepper(&body(text), solver);
+    let h = 1.0 / f64::from(hz);
+    for tick in 0..(seconds * f64::from(hz)).round() as u32 {
+        let t = f64::from(tick) * h;
+        body.advance(t, h, 1).unwrap_or_else(|end| panic!("{end} at {t} s: {text}"));
+    }
+    body
+}
+
+fn under(id: &str, rule: &str) -> Solver {
+    Solver::Bouncing(method(id).unwrap(), None, impact(rule).unwrap())
+}
+
+#[test]
+fn the_truth_of_a_law_has_the_states_of_sixty_digits() {
+    let fall = |height: f64, e| falling(&format!("start = {height:?}"), "-g", e, "y");
+    let drag = |height: f64, c, e| {
+        falling(&format!("start = {height:?}"), &format!("-g - {c}*vy"), e, "y")
+    };
+    let spring = |y: f64, v: f64, w2: f64, yc: f64, e| {
+        let start = format!("start = {y:?}\nstart_velocity = {v:?}");
+        falling(&start, &format!("-{w2}*(y - ({yc:?}))"), e, "y")
+    };
+    let paddle = |height: f64, a: f64, w: f64, e: f64| {
+        format!(
+            "[[law]]\nconstants = {{ g = 9.81, e = {e}, a = {a}, w = {w:?} }}\n[law.coordinates.y]\n\
+             start = {height:?}\nacceleration = '-g'\n[law.events.floor]\nwhen = 'y - a*sin(w*t)'\n\
+             then = {{ vy = 'a*w*cos(w*t) - e*(vy - a*w*cos(w*t))' }}\n"
+        )
+    };
+    for (text, t, [y, v], within) in [
+        (fall(1.0, 1.0), 10.0, [0.97832197540443782, -0.6521678024595587], 1e-12),
+        (fall(10.0, 0.8), 5.0, [3.4106847818149405, -3.6668630436370113], 1e-12),
+        (fall(1.0, 0.8), 4.0, [7.7674991427846547e-5, 0.050506744527476647], 1e-12),
+        (drag(10.0, "0.1", 0.8), 5.0, [1.0198423469751812, -6.2038216007897263], 1e-12),
+        (drag(1.0, "0.5", 1.0), 10.0, [0.010899401813355423, -0.70299693198461739], 1e-11),
+        (
+            spring(1.0, 0.0, 16.0, -0.5, 0.9),
+            6.0,
+            [0.0070575962865253095, -1.5616682372482382],
+            1e-11,
+        ),
+        (spring(0.2, 2.0, 9.0, 0.5, 0.7), 6.0, [0.94791223439757748, -0.8634541750971654], 1e-11),
+        (paddle(0.3, 0.02, 20.0, 0.8), 3.0, [0.14880881022552925, 0.49034552235131185], 1e-11),
+        (paddle(1.0, 0.01, 31.4159, 0.9), 5.0, [0.073343613782959098, 2.7240576559417889], 1e-11),
+    ] {
+        let truth = after(&text, Solver::Truth, t, 60);
+        let [dy, dv] = [truth.q()[0] - y, truth.v()[0] - v];
+        assert!(dy.abs() <= within && dv.abs() <= 10.0 * within, "{text}: {dy:e}, {dv:e}");
+        let error = truth.truth_error().unwrap();
+        assert!(dy.abs() <= error[0] && error[0] < 1e-9, "{text}: {dy:e}, said {error:?}");
+    }
+}
+
+#[test]
+fn the_truth_of_a_law_rests_and_never_falls_through_its_floor() {
+    let text = falling("start = 2.0", "-g", 0.8, "y - 1");
+    let mut truth = stepper(&body(&text), Solver::Truth);
+    for tick in 0..600 {
+        truth.advance(f64::from(tick) / 60.0, 1.0 / 60.0, 1).unwrap();
+        assert!(truth.q()[0] >= 1.0, "{tick}: {}", truth.q()[0]);
+        assert_eq!(truth.q()[0] == 1.0 && truth.v()[0] == 0.0, tick >= 243, "{tick}");
+    }
+    // A push lifts it from its rest.
+    let text = falling("start = 0.5", "-g + 20*max(t - 1, 0)", 0.1, "y");
+    assert_eq!(after(&text, Solver::Truth, 1.49, 100).q()[0], 0.0);
+    let lifted = after(&text, Solver::Truth, 2.0, 60).q()[0];
+    let wanted = 20.0 / 6.0 * (2.0_f64 - 1.4905).powi(3);
+    assert!((lifted - wanted).abs() < 1e-10, "{lifted}, not {wanted}");
+    for it in IMPACTS.iter().filter(|it| it.id.starts_with("locate")) {
+        let rests = after(&text, under("rk4", it.id), 1.49, 100);
+        assert_eq!(rests.q()[0], 0.0, "{it:?}");
+    }
+}
+
+#[test]
+fn a_law_bounces_as_the_ball_does_to_the_bit() {
+    let mut dice = Dice::new(0x82_f100);
+    for it in IMPACTS.iter().filter(|it| !["engine", "none", "penalty"].contains(&it.id)) {
+        for id in ["velocity-verlet", "semi-implicit-euler", "rk4"] {
+            let (height, e) = (dice.between(0.5, 2.0), dice.between(0.5, 1.0));
+            let start = format!("start = {height:?}\nstart_velocity = 0.1");
+            let law = after(&falling(&start, "-g - 0.05*vy", e, "y"), under(id, it.id), 4.0, 60);
+            let ball = format!(
+                "[[ball]]\nheight_m = {height:?}\nspeed_m_per_s = 0.1\nrestitution = {e:?}\ndrag_per_s = 0.05"
+            );
+            let ball = after(&ball, under(id, it.id), 4.0, 60);
+            let bits = |it: &dyn Stepper| [it.q()[0], it.v()[0]].map(f64::to_bits);
+            assert_eq!(bits(&*law), bits(&*ball), "{it:?} under {id}");
+            assert_eq!(law.bounces(), ball.bounces());
+        }
+    }
+}
+
+#[test]
+fn a_law_knows_its_true_bounces() {
+    let text = falling("start = 1.0\nstart_velocity = 0.1", "-g", 0.8, "y");
+    let truth = stepper(&body(&text), Solver::Truth);
+    let ball = stepper(&body("[[ball]]\nheight_m = 1.0\nspeed_m_per_s = 0.1"), Solver::Truth);
+    for n in 0..12 {
+        let [own, exact] = [&truth, &ball].map(|of| of.true_bounce(n).unwrap());
+        assert!((own[0] - exact[0]).abs() < 1e-12, "{n}: {own:?}, not {exact:?}");
+        assert!(
+            (own[1] - exact[1]).abs() < 1e-11 || own[1].is_nan(),
+            "{n}: {own:?}, not {exact:?}"
+        );
+    }
+}
+
+#[test]
+fn the_bounces_on_a_paddle_end_where_the_truth_does_not_know_itself() {
+    let text = "[[law]]\nconstants = { g = 9.81, e = 0.9, a = 0.01, w = 60 }\n[law.coordinates.y]\nstart = 0.3\n\
+                acceleration = '-g'\n[law.events.paddle]\nwhen = 'y - a*sin(w*t)'\n\
+                then = { vy = 'a*w*cos(w*t) - e*(vy - a*w*cos(w*t))' }\n";
+    let truth = stepper(&body(text), Solver::Truth);
+    let known = (1..200).take_while(|n| truth.true_bounce(*n).is_some()).count() as u64;
+    let [last_s, _] = truth.true_bounce(known).unwrap();
+    assert!((10..30).contains(&known) && (4.0..12.0).contains(&last_s), "{known}: {last_s} s");
+    let errors = [3.0, 12.0].map(|t| after(text, Solver::Truth, t, 60).truth_error().unwrap()[0]);
+    assert!(errors[0] < 1e-9 && errors[1] > 1e-3, "{errors:?}");
+}
+
+#[test]
+fn lines_with_a_floor_of_their_own_need_a_law_with_one() {
+    let lines = "v += a(x, v)*h; x += v*h; if x < 0 { x = 0; v = -0.8*v }";
+    let method = own_method("floored", lines).unwrap();
+    let scene = |events: bool| -> Scene {
+        let text = falling("start = 1.0", "-g", 0.8, "y");
+        parse(if events { &text } else { text.split("[law.events").next().unwrap() }).unwrap()
+    };
+    assert!(method.has_own_floor);
+    assert_eq!(LaneSpec::plain(method).impact.id, "none");
+    let incompatible = |scene: &Scene| {
+        let body = &scene.bodies[0];
+        regatta::sim::bodies::incompatibility(method, &body.kind, &body.values)
+    };
+    assert_eq!(incompatible(&scene(true)), None);
+    assert!(incompatible(&scene(false)).unwrap().contains("[law.events.floor]"));
+}
+
+#[test]
+fn events_that_are_no_walls_are_refused_with_a_remedy() {
+    let event = |lines: &str| {
+        format!(
+            "[[law]]\nconstants = {{ g = 9.81 }}\n[law.coordinates.y]\nstart = 1\nacceleration = '-g'\n{lines}\n"
+        )
+    };
+    let floor = |lines: &str| event(&format!("[law.events.floor]\n{lines}"));
+    let then = "then = { vy = '-0.8*vy' }";
+    let many: String =
+        (0..9).map(|n| format!("[law.events.e{n}]\nwhen = 'y + {n}'\n{then}\n")).collect();
+    for (text, words) in [
+        (floor("when = 'y'"), "`then`"),
+        (floor(&format!("when = 'g'\n{then}")), "depends on no coordinate"),
+        (floor(&format!("when = 'y^2 - 1'\n{then}")), "no wall"),
+        (floor(&format!("when = 'vy'\n{then}")), "does not depend on `vy`"),
+        (floor(&format!("when = 't*y'\n{then}")), "evenly"),
+        (
+            floor("when = 'y'\nthen = { vz = '-vy' }"),
+            "no velocity is called `vz`; write one of `vy`",
+        ),
+        (floor("when = 'y'\nthen = { vy = '0.8*vy' }"), "still falling; write `vy = \"-e*vy\"`"),
+        (floor("when = 'y'\nthen = {}"), "empty"),
+        (floor("when = 'y'\nthen = { vy = '-e*vy' }"), "`e`"),
+        (event(&many), "keep at most 8"),
+        (
+            floor(&format!("when = 'y'\n{then}"))
+                .replace("start = 1", "start = 1\nexact = '1 - g*t^2/2'"),
+            "would pass through",
+        ),
+    ] {
+        let errors = parse(&text).err().unwrap_or_else(|| panic!("not refused: {text}"));
+        assert!(errors.contains(words), "{words}: {errors}");
+    }
+    let energy = |energy: &str| {
+        let text = falling("start = 1", "-g", 1.0, "y")
+            .replace("[law.coord", &format!("{energy}\n[law.coord"));
+        parse(&format!("method = 'rk4'\n[[lane]]\nmethod = 'rk4'\nimpact = 'energy'\n{text}"))
+    };
+    assert!(energy("").unwrap_err().contains("needs the `energy`"));
+    assert!(energy("energy = 'vy^2/2 + g*y'").is_ok());
+    // A law that never reaches its wall is a law.
+    assert!(parse(&floor(&format!("when = 'y + 9000'\n{then}"))).is_ok());
+}
+
+#[test]
+fn a_scene_with_events_is_written_as_it_was_read() {
+    let text = falling("start = 1.0", "-g", 0.8, "y")
+        .replace("then", "falling = false\nthen")
+        .replace("when = 'y'", "when = '1 - y/2'");
+    let scene = parse(&text).unwrap_or_else(|errors| panic!("{errors}"));
+    let written = scene.to_toml();
+    let again = Scene::parse("again.toml", &written).unwrap();
+    assert_eq!((again.to_toml(), &again.bodies[0].kind), (written.clone(), &scene.bodies[0].kind));
+    assert!(written.contains("[law.events.floor]") && written.contains("falling = false"));
+}
