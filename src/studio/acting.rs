@@ -117,7 +117,7 @@ pub(super) fn next_impact(studio: &mut Studio) {
     }
     let Entrant { id: lane, spec, .. } = *studio.selected();
     let mut around = IMPACTS.iter().cycle().skip_while(|&it| it != spec.impact).skip(1);
-    let bodies = &deck.scene().bodies;
+    let bodies = &studio.deck.scene().bodies;
     let follow = |it: &Impact| bodies.iter().all(|body| body.kind.impact_refusal(it).is_none());
     let Some(impact) =
         around.find(|it| it.fits(spec.method) && follow(it)).filter(|it| *it != spec.impact)
