@@ -233,8 +233,9 @@ const DASHES: [[f32; 2]; 6] =
 /// Number of dash patterns that are used first; the others resemble these.
 const FIRST_DASHES: usize = 5;
 
-/// Indices of the dashes of engines, which race among themselves.
+/// Indices of the dashes of engines, which race among themselves: those that are used first, and the others.
 const ENGINE_DASHES: [usize; 3] = [4, 1, 2];
+const MORE_ENGINE_DASHES: [usize; 2] = [3, 5];
 
 /// Hue of each colour as a deuteranope sees it: 0 yellow, 1 blue, 2 grey.
 const HUES: [usize; 7] = [0, 1, 2, 0, 2, 0, 1];
@@ -332,7 +333,9 @@ static STYLES: LazyLock<Vec<(usize, usize)>> = LazyLock::new(|| {
     let mut free: Vec<(usize, usize)> = first.chain(more).collect();
     let of_engines = (0..colours * ENGINE_DASHES.len())
         .map(|n| (n % colours, ENGINE_DASHES[n % ENGINE_DASHES.len()]));
-    let of_engines = of_engines.filter(|style| style.0 != EULER);
+    let more_of_engines =
+        MORE_ENGINE_DASHES.into_iter().flat_map(|dash| (0..colours).map(move |n| (n, dash)));
+    let of_engines = of_engines.chain(more_of_engines).filter(|style| style.0 != EULER);
     let mut of_engines: Vec<(usize, usize)> = of_engines.collect();
     free.retain(|style| {
         style.0 != EULER && !METHODS.iter().filter_map(classic).any(|taken| taken == *style)

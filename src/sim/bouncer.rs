@@ -155,7 +155,7 @@ impl<P: Clone, V: Vector> Bouncer<P, V> {
             contact.set_speed(back - gained, y);
             self.land(body, t, y, [speed, back]);
             self.bounces.beyond = -contact.height(y);
-            self.bounces.add(contact.height(y));
+            self.add_height(&body.system, contact, y);
         }
         let is_within = matches!(self.rule, Rule::Within(_) | Rule::Swept);
         if is_within && let Some(contact) = self.rest(body, t, y) {
@@ -206,6 +206,13 @@ impl<P: Clone, V: Vector> Bouncer<P, V> {
             Rule::BeforeTick | Rule::Penalty | Rule::Engine | Rule::OwnLines => {}
         }
         Ok(())
+    }
+
+    /// Adds the height of the flight at the end of a tick or before its first step.
+    fn add_height<B: Body<Vector = V>>(&mut self, body: &B, contact: Contact, y: &State<V>) {
+        let distance = contact.height(y);
+        let still = body.wall(contact.index, 0.0).unwrap_or(contact.wall).at_rest();
+        self.bounces.add(still.height(y.q.components()), distance);
     }
 
     /// Records an impact if the method itself has turned the body in the step from `self.from` to `y`.
@@ -427,7 +434,7 @@ where
         }
         if let Some(contact) = Contact::all(&body.system, t + h).next() {
             self.bounces.coordinate = contact.wall.coordinate;
-            self.bounces.add(contact.height(y));
+            self.add_height(&body.system, contact, y);
         }
         Ok(())
     }

@@ -28,6 +28,12 @@ pub struct Wall {
 const SOFT_HZ: f64 = 4.77;
 
 impl Wall {
+    /// Returns the wall at rest where it now is. Heights of flights are above the lower wall at rest where it is at time
+    /// 0, because the distance from a wall that swings has many peaks in a flight.
+    pub(super) fn at_rest(self) -> Self {
+        Self { velocity: 0.0, acceleration: 0.0, ..self }
+    }
+
     /// Returns the distance of coordinates from the wall, negative beyond it.
     pub(super) fn height(&self, q: &[f64]) -> f64 {
         self.side * (q[self.coordinate] - self.at)
@@ -248,9 +254,9 @@ impl Bounces {
         self.known = 0;
     }
 
-    /// Adds the height above the lower wall at the end of a tick.
-    pub(super) fn add(&mut self, height: f64) {
-        self.depth = self.depth.max(-height);
+    /// Adds the height of a flight at the end of a tick, and the distance from the lower wall.
+    pub(super) fn add(&mut self, height: f64, distance: f64) {
+        self.depth = self.depth.max(-distance);
         let [_, before, last] = self.heights;
         self.heights = [before, last, height];
         self.known = (self.known + 1).min(3);

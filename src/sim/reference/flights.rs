@@ -3,6 +3,7 @@
 use super::extrapolation::Extrapolation;
 use super::trajectory::{StepControl, Trajectory};
 use crate::body::Body;
+use crate::impact::Wall;
 use crate::state::{State, Vector, largest};
 
 /// The seconds by which the flights are followed at once. Of flights within one stretch, only the last has a height.
@@ -90,20 +91,18 @@ impl<V: Vector> Flights<V> {
 impl<V: Vector> Ahead<V> {
     /// Adds an impact at time `t` (s), whose flight begins at its top if it does not rise.
     fn take_off<B: Body<Vector = V>>(&mut self, body: &B, t: f64) {
-        let rises =
-            body.wall(0, t).is_some_and(|wall| wall.speed(self.trajectory.at.v.components()) > 0.0);
-        let height = if rises { f64::NAN } else { self.height(body, t) };
+        let State { q, v } = &self.trajectory.at;
+        let height = match still_wall(body) {
+            Some(wall) if wall.speed(v.components()) <= 0.0 => wall.height(q.components()),
+            _ => f64::NAN,
+        };
         self.found.push([t, height]);
-    }
-
-    fn height<B: Body<Vector = V>>(&self, body: &B, t: f64) -> f64 {
-        body.wall(0, t).map_or(f64::NAN, |wall| wall.height(self.trajectory.at.q.components()))
     }
 
     /// Follows one stretch. Returns `None` if it takes too much work, or the motion is no longer known.
     fn go_on<B: Body<Vector = V>>(&mut self, body: &B, start_s: f64) -> Option<()> {
         let t = start_s + STRETCH_S * f64::from(self.stretches);
-        let wall = body.wall(0, t)?;
+        let wall = still_wall(body)?;
         self.stretches += 1;
         let before = self.trajectory.clone();
         let Self { trajectory, check, difference, work, .. } = self;
@@ -136,11 +135,11 @@ fn top<B: Body>(
     work: &mut Extrapolation<B::Vector>,
 ) -> Option<f64> {
     let mut a = trajectory.at.v.clone();
+    let wall = still_wall(body)?;
     for _ in 0..8 {
-        let wall = body.wall(0, t)?;
         let State { q, v } = &trajectory.at;
         body.acceleration(t, q, v, &mut a);
-        let push = wall.side * (a.components()[wall.coordinate] - wall.acceleration);
+        let push = wall.side * a.components()[wall.coordinate];
         let left = -wall.speed(v.components()) / push;
         if left.abs() < 1e-12 {
             break;
@@ -148,5 +147,10 @@ fn top<B: Body>(
         trajectory.advance(body, t, left, work, MAX_EVALUATIONS).ok()?;
         t += left;
     }
-    Some(body.wall(0, t)?.height(trajectory.at.q.components()))
+    Some(wall.height(trajectory.at.q.components()))
+}
+
+/// Returns the wall above which heights of flights are.
+fn still_wall<B: Body>(body: &B) -> Option<Wall> {
+    body.wall(0, 0.0).map(Wall::at_rest)
 }
