@@ -28,8 +28,8 @@ pub struct Wall {
 const SOFT_HZ: f64 = 4.77;
 
 impl Wall {
-    /// Returns the wall at rest where it now is. Heights of flights are above the lower wall at rest where it is at time
-    /// 0, because the distance from a wall that swings has many peaks in a flight.
+    /// Returns the wall at rest where it now is. Heights of flights are above the lower wall at rest where it is at
+    /// time 0, because the distance from a wall that swings has many peaks in a flight.
     pub(super) fn at_rest(self) -> Self {
         Self { velocity: 0.0, acceleration: 0.0, ..self }
     }
