@@ -57,6 +57,10 @@ pub struct Matter;
 impl EngineRule for Matter {
     fn tick<V: Vector>(tick: EngineTick<'_, V>, q: &mut V, v: &mut V) {
         let (h, set) = (tick.length, tick.settings);
+        // A frame in which no time passes has no velocity.
+        if h == 0.0 {
+            return;
+        }
         let scale = (FULL_HZ * h).min(1.0);
         let part = (scale * scale * set.stiffness / FULL_STIFFNESS).min(1.0);
         let brake = scale * set.damping / FULL_DAMPING;

@@ -21,7 +21,7 @@ use crate::printed::texts;
 ///   its rows, in `loops.rs`; the pipe to ffmpeg is run in `formats.rs`.
 /// - `toml`: scenes are read, below; dependencies are resolved in `tests/library/ci_recipe.rs`.
 const BLOCKS: [(&str, &str, usize); 20] = [
-    ("scenes", "toml", 6),
+    ("scenes", "toml", 7),
     ("commands", "console", 6),
     ("commands", "sh", 2),
     ("commands", "text", 1),
