@@ -130,8 +130,8 @@ fn runs_without_graphics((name, _): &(String, String)) -> bool {
 /// The programs of `examples`, by their names.
 fn examples() -> impl Iterator<Item = (String, String)> {
     let folder = fs::read_dir(Path::new(env!("CARGO_MANIFEST_DIR")).join("examples")).unwrap();
-    folder.map(|entry| {
-        let path = entry.unwrap().path();
+    let files = folder.map(|entry| entry.unwrap().path()).filter(|path| path.is_file());
+    files.map(|path| {
         let name = path.file_stem().unwrap().to_str().unwrap().to_owned();
         (name, fs::read_to_string(path).unwrap())
     })
