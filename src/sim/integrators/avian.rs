@@ -20,11 +20,10 @@ pub(super) const CARD: Method = Method {
         tick_hz: 64,
         damping_ratio: Some(0.00818),
         substeps: Substeps::Own,
-        bounce: None,
-        free_spin: None,
         version: "0.8.0",
         logged: Some("2026-11-22"),
         modes: &MODES,
+        ..BARE
     }),
     source: "Avian 0.8.0: integrator/mod.rs, xpbd/plugin.rs, solver/plugin.rs joint_damping",
     formula: &[

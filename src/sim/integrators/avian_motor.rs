@@ -22,11 +22,10 @@ pub(super) const CARD: Method = Method {
         tick_hz: 64,
         damping_ratio: Some(0.00813),
         substeps: Substeps::Own,
-        bounce: None,
-        free_spin: None,
         version: "0.8.0",
         logged: Some("2026-11-22"),
         modes: &MODES,
+        ..BARE
     }),
     source: "Avian 0.8.0: integrator/mod.rs, xpbd/plugin.rs, xpbd/joints/prismatic.rs",
     formula: &[

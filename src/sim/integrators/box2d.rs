@@ -16,10 +16,10 @@ pub(super) const ENGINE: Engine = Engine {
     damping_ratio: Some(0.02617),
     substeps: Substeps::Own,
     bounce: Some(EngineBounce::Soft { threshold: 1.0, is_capped: true }),
-    free_spin: None,
     version: "3.x main 617d32a",
     logged: Some("2026-11-21"),
     modes: &MODES,
+    ..BARE
 };
 
 pub(super) const CARD: Method = Method {

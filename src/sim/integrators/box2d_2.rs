@@ -28,11 +28,10 @@ pub(super) const CARD: Method = Method {
         substeps: Substeps::Ticks(
             "for (int i = 0; i < {n}; i++) world.Step(dt / {n}, 8, 3); // step {n} times with dt / {n}",
         ),
-        bounce: None,
-        free_spin: None,
         version: "2.4 in box2d-wasm 7.0.0 and planck 1.5.0",
         logged: Some("2026-11-27"),
         modes: &MODES,
+        ..BARE
     }),
     source: "runs of box2d-wasm 7.0.0 and planck 1.5.0: DistanceJoint, linearDamping",
     formula: &[

@@ -17,11 +17,11 @@ pub(super) const CARD: Method = Method {
         tick_hz: 60,
         damping_ratio: Some(0.0),
         substeps: Substeps::Own,
-        bounce: None,
         free_spin: Some(FreeSpin::of(SpinMap::NewtonStep)),
         version: "3 main 6c888f4",
         logged: Some("2026-11-21"),
         modes: &MODES,
+        ..BARE
     }),
     source: "Bullet 3 main 6c888f4: btRigidBody.cpp applyDamping, btGeneric6DofSpring2Constraint.cpp get_limit_motor_info2",
     formula: &[

@@ -1,6 +1,5 @@
 //! Cannon-es and p2-es, whose springs are forces of the tick's start.
 
-use super::joint_mode::JointQuantity::{Damping, Stiffness};
 use super::prelude::*;
 
 const MODES: [JointMode; 4] = [
@@ -13,20 +12,8 @@ const MODES: [JointMode; 4] = [
         "world.addSpring(new p2.LinearSpring(a, b, { stiffness: {stiffness}, damping: {damping} }))\nbody.damping = 0",
     )
     .of("engine-p2"),
-    mode(
-        "newton-featherstone",
-        ("target_ke", Stiffness),
-        ("target_kd", Damping),
-        "dof = newton.ModelBuilder.JointDofConfig(axis, target_ke={target_ke}, target_kd={target_kd})\nsolver = newton.solvers.SolverFeatherstone(model)",
-    )
-    .of("engine-newton-featherstone"),
-    mode(
-        "newton-semi-implicit",
-        ("target_ke", Stiffness),
-        ("target_kd", Damping),
-        "dof = newton.ModelBuilder.JointDofConfig(axis, target_ke={target_ke}, target_kd={target_kd})\nsolver = newton.solvers.SolverSemiImplicit(model)",
-    )
-    .of("engine-newton-semi-implicit"),
+    newton_mode!("newton-featherstone", "SolverFeatherstone"),
+    newton_mode!("newton-semi-implicit", "SolverSemiImplicit"),
 ];
 
 pub(super) const CARD: Method = Method {
@@ -43,11 +30,10 @@ pub(super) const CARD: Method = Method {
         substeps: Substeps::Ticks(
             "for (let i = 0; i < {n}; i++) world.step(dt / {n}) // step {n} times with dt / {n}",
         ),
-        bounce: None,
-        free_spin: None,
         version: "0.20.0, and of p2-es 1.2.3 and Newton 1.8.0",
         logged: Some("2026-11-27"),
         modes: &MODES,
+        ..BARE
     }),
     source: "runs of cannon-es 0.20.0 and p2-es 1.2.3: Spring, linearDamping; Newton 1.8.0, which has no drag",
     formula: &["a = f − K x − c v", "v′ = v e^(−C H) + H a, x′ = x + H v′"],

@@ -567,6 +567,18 @@ pub(super) const ENGINE: Method = Method {
     ..PLAIN
 };
 
+/// An engine at 60 Hz that has no spring, and whose bounces and free rotations are not reproduced.
+pub(super) const BARE: Engine = Engine {
+    tick_hz: 60,
+    damping_ratio: None,
+    substeps: Substeps::Own,
+    bounce: None,
+    free_spin: None,
+    version: "",
+    logged: None,
+    modes: &[],
+};
+
 /// A step of a free rotation in space, which reads the moments once.
 pub(super) const GYRO: Method = Method {
     family: Family::Gyro,

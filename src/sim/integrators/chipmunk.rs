@@ -20,10 +20,10 @@ pub(super) const CARD: Method = Method {
             "for (int i = 0; i < {n}; i++) cpSpaceStep(space, dt / {n}); // step {n} times with dt / {n}",
         ),
         bounce: Some(EngineBounce::Chipmunk),
-        free_spin: None,
         version: "2.0.1 in pymunk 7.3.1",
         logged: Some("2026-11-21"),
         modes: &MODES,
+        ..BARE
     }),
     source: "Chipmunk 2.0.1 in pymunk 7.3.1: cpBodyUpdatePosition, cpBodyUpdateVelocity, cpDampedSpring.c",
     formula: &["x′ = x + H v", "v′ = ((v − H K x′) e^(−C H) + H f) e^(−c H)"],

@@ -19,11 +19,10 @@ pub(super) const CARD: Method = Method {
         substeps: Substeps::Ticks(
             "new Engine({ fixedUpdateFps: {hz} }) // step {n} times with dt / {n}",
         ),
-        bounce: None,
-        free_spin: None,
         version: "0.32.0",
         logged: Some("2026-11-27"),
         modes: &MODES,
+        ..BARE
     }),
     source: "runs of Excalibur 0.32.0: MotionSystem",
     formula: &["a = f − K x − (c + C) v", "x′ = x + H v + 1.5 H² a, v′ = v + H a"],

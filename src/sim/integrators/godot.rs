@@ -21,12 +21,11 @@ pub(super) const CARD: Method = Method {
         substeps: Substeps::Ticks(
             "Engine.physics_ticks_per_second = {hz} # step {n} times with dt / {n}: Godot has no substeps, and whole ticks",
         ),
-        bounce: None,
         // This is the map of Godot's bodies in space.
         free_spin: Some(FreeSpin::of(SpinMap::Constant)),
         version: "4.x",
-        logged: None,
         modes: &MODES,
+        ..BARE
     }),
     source: "Godot 4.x: godot_body_2d.cpp, godot_joints_2d.cpp GodotDampedSpringJoint2D",
     formula: &["v = v max(0, 1 − H C) + H f − H K x", "v′ = v e^(−8 c H), x′ = x + H v′"],

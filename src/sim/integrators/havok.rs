@@ -36,11 +36,10 @@ pub(super) const CARD: Method = Method {
         tick_hz: 60,
         damping_ratio: Some(0.01309),
         substeps: Substeps::Own,
-        bounce: None,
-        free_spin: None,
         version: "1.3.14 of @babylonjs/havok",
         logged: Some("2026-11-27"),
         modes: &MODES,
+        ..BARE
     }),
     source: "runs of @babylonjs/havok 1.3.14: motors SPRING_FORCE and SPRING_ACCELERATION, limits, linear damping",
     formula: &[

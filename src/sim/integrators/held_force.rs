@@ -16,11 +16,8 @@ pub(super) const CARD: Method = Method {
         tick_hz: 60,
         damping_ratio: Some(-0.01961),
         substeps: Substeps::Own,
-        bounce: None,
-        free_spin: None,
-        version: "",
-        logged: None,
         modes: &MODES,
+        ..BARE
     }),
     source: "what Box2D, Rapier and Avian do with a force that is applied before the step; Jolt, Bullet and MuJoCo too where \
              they substep",

@@ -168,6 +168,25 @@ pub(super) const fn si_mode(id: &'static str, code: &'static str) -> JointMode {
     mode(id, ("stiffness", Stiffness), ("damping", Damping), code)
 }
 
+/// Returns a [`mode`] of a solver of Newton, for the engine whose id is `engine-` and that of the mode.
+macro_rules! newton_mode {
+    ($id:literal, $solver:literal) => {
+        $crate::integrators::joint_mode::mode(
+            $id,
+            ("target_ke", $crate::integrators::joint_mode::JointQuantity::Stiffness),
+            ("target_kd", $crate::integrators::joint_mode::JointQuantity::Damping),
+            concat!(
+                "dof = newton.ModelBuilder.JointDofConfig(axis, target_ke={target_ke}, target_kd={target_kd})\n",
+                "solver = newton.solvers.",
+                $solver,
+                "(model)"
+            ),
+        )
+        .of(concat!("engine-", $id))
+    };
+}
+pub(super) use newton_mode;
+
 #[cfg(test)]
 mod tests {
     use super::*;

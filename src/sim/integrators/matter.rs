@@ -23,11 +23,10 @@ pub(super) const CARD: Method = Method {
         substeps: Substeps::Ticks(
             "for (let i = 0; i < {n}; i++) Engine.update(engine, 1000 * dt / {n}) // step {n} times with dt / {n}",
         ),
-        bounce: None,
-        free_spin: None,
         version: "0.20.0",
         logged: Some("2026-11-27"),
         modes: &MODES,
+        ..BARE
     }),
     source: "runs of Matter.js 0.20.0: Body.update, Constraint.solveAll with constraintIterations 2",
     formula: &[

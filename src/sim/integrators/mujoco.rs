@@ -26,13 +26,7 @@ const MODES: [JointMode; 5] = [
         "joint = plant.AddJoint(PrismaticJoint(name, parent, child, axis, damping={damping}))\nplant.AddForceElement(PrismaticSpring(joint, 0.0, {stiffness}))",
     )
     .of("engine-drake"),
-    mode(
-        "newton-mujoco",
-        ("target_ke", Stiffness),
-        ("target_kd", Damping),
-        "dof = newton.ModelBuilder.JointDofConfig(axis, target_ke={target_ke}, target_kd={target_kd})\nsolver = newton.solvers.SolverMuJoCo(model)",
-    )
-    .of("engine-newton-mujoco"),
+    newton_mode!("newton-mujoco", "SolverMuJoCo"),
 ];
 
 pub(super) const CARD: Method = Method {

@@ -15,20 +15,8 @@ const MODES: [JointMode; 4] = [
         ("kv", Damping),
         "<option integrator=\"discrete\"/>\n<position joint=\"slide\" kp=\"{kp}\" kv=\"{kv}\"/>",
     ),
-    mode(
-        "newton-vbd",
-        ("target_ke", Stiffness),
-        ("target_kd", Damping),
-        "dof = newton.ModelBuilder.JointDofConfig(axis, target_ke={target_ke}, target_kd={target_kd})\nsolver = newton.solvers.SolverVBD(model)",
-    )
-    .of("engine-newton-vbd"),
-    mode(
-        "newton-kamino",
-        ("target_ke", Stiffness),
-        ("target_kd", Damping),
-        "dof = newton.ModelBuilder.JointDofConfig(axis, target_ke={target_ke}, target_kd={target_kd})\nsolver = newton.solvers.SolverKamino(model)",
-    )
-    .of("engine-newton-kamino"),
+    newton_mode!("newton-vbd", "SolverVBD"),
+    newton_mode!("newton-kamino", "SolverKamino"),
 ];
 
 pub(super) const CARD: Method = Method {
@@ -41,11 +29,10 @@ pub(super) const CARD: Method = Method {
         tick_hz: 500,
         damping_ratio: Some(0.00628),
         substeps: Substeps::Own,
-        bounce: None,
-        free_spin: None,
         version: "4.0.0",
         logged: Some("2026-11-27"),
         modes: &MODES,
+        ..BARE
     }),
     source: "runs of MuJoCo 4.0.0: integrator=\"discrete\"",
     formula: &[

@@ -19,11 +19,11 @@ pub(super) const CARD: Method = Method {
         tick_hz: 500,
         damping_ratio: Some(0.0),
         substeps: Substeps::Own,
-        bounce: None,
         free_spin: Some(FreeSpin::of(SpinMap::RungeKutta)),
         version: "4.0.0",
         logged: Some("2026-11-21"),
         modes: &MODES,
+        ..BARE
     }),
     source: "MuJoCo 4.0.0: engine_forward.c mj_RungeKutta",
     formula: &[

@@ -21,11 +21,10 @@ pub(super) const CARD: Method = Method {
         substeps: Substeps::Ticks(
             "for (let i = 0; i < {n}; i++) space.step(dt / {n}) // step {n} times with dt / {n}",
         ),
-        bounce: None,
-        free_spin: None,
         version: "1.0.0 of @newkrok/nape-js",
         logged: Some("2026-11-27"),
         modes: &MODES,
+        ..BARE
     }),
     source: "runs of @newkrok/nape-js 1.0.0: DistanceJoint with stiff = false, worldLinearDrag",
     formula: &["D = 1 + H c + H² K, v = v (1 − H C) + H f", "v′ = (v − H K x) / D, x′ = x + H v′"],

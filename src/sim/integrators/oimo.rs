@@ -16,11 +16,10 @@ pub(super) const OIMO: Engine = Engine {
     substeps: Substeps::Ticks(
         "for (let i = 0; i < {n}; i++) world.step(dt / {n}) // step {n} times with dt / {n}",
     ),
-    bounce: None,
-    free_spin: None,
     version: "1.2.2 of oimophysics, and 1.0.9 of oimo",
     logged: Some("2026-11-27"),
     modes: &MODES,
+    ..BARE
 };
 
 pub(super) const CARD: Method = Method {

@@ -15,13 +15,10 @@ pub(super) const CARD: Method = Method {
     symplectic: true,
     engine: Some(Engine {
         tick_hz: 60,
-        damping_ratio: None,
         substeps: Substeps::Ticks("world.setFPS({hz}) // step {n} times with dt / {n}"),
-        bounce: None,
-        free_spin: None,
         version: "4.2.1",
         logged: Some("2026-11-27"),
-        modes: &[],
+        ..BARE
     }),
     source: "runs of Phaser 4.2.1: World.updateMotion on an Arcade body with useDamping",
     formula: &["if f ≠ 0: v = v + H f", "else: v = v e^(−C H)", "x = x + H v"],

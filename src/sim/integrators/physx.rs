@@ -43,11 +43,11 @@ pub(super) const CARD: Method = Method {
         tick_hz: 60,
         damping_ratio: Some(0.05219),
         substeps: Substeps::Iterations,
-        bounce: None,
         free_spin: FREE_SPIN,
         version: "5.1.3",
         logged: Some("2026-11-21"),
         modes: &MODES,
+        ..BARE
     }),
     source: "PhysX 5.1.3: the projected Gauss-Seidel solver, D6 drive and distance joint",
     formula: &[

@@ -14,11 +14,11 @@ pub(super) const CARD: Method = Method {
         tick_hz: 60,
         damping_ratio: Some(0.01636),
         substeps: Substeps::Iterations,
-        bounce: None,
         free_spin: FREE_SPIN,
         version: "5.1.3",
         logged: Some("2026-11-21"),
         modes: &DRIVES,
+        ..BARE
     }),
     source: "PhysX 5.1.3: DyTGSContactPrep.cpp, DyCpuGpu1dConstraint.h",
     formula: &[

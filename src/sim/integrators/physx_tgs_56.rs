@@ -12,12 +12,11 @@ pub(super) const CARD: Method = Method {
         tick_hz: 60,
         damping_ratio: Some(0.01309),
         substeps: Substeps::Iterations,
-        bounce: None,
         // There is no log of a tumbling body in this version.
-        free_spin: None,
         version: "5.6.1 in physx-js-webidl 2.7.3",
         logged: Some("2026-11-24"),
         modes: &DRIVES,
+        ..BARE
     }),
     source: "PhysX 5.6.1 in physx-js-webidl 2.7.3: the temporal Gauss-Seidel solver, D6 drive, seen in its logs",
     formula: &[

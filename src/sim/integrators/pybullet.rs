@@ -14,15 +14,13 @@ pub(super) const CARD: Method = Method {
     symplectic: true,
     engine: Some(Engine {
         tick_hz: 240,
-        damping_ratio: None,
         substeps: Substeps::Ticks(
             "for _ in range({n}): p.stepSimulation()  # step {n} times with dt / {n}",
         ),
         bounce: Some(EngineBounce::Pybullet),
-        free_spin: None,
         version: "3.2.7",
         logged: Some("2026-11-21"),
-        modes: &[],
+        ..BARE
     }),
     source: "pybullet 3.2.7: btMultiBody.cpp, its default linear damping",
     formula: &["d = 1 − e^(−C)", "v′ = v + H (f − d v (1 + |v|))", "x′ = x + H v′"],
