@@ -93,9 +93,10 @@ pub(super) fn run(args: &ReportArgs) -> Result<(), Error> {
         return Err(Error::nothing_written());
     }
     // A recording is the report of a run elsewhere, whose hashes it must keep.
-    let recording = match experiment.scene.checks.is_empty() {
-        true => studio.deck.recording(),
-        false => recording_text(&experiment.scene),
+    let recording = if experiment.scene.checks.is_empty() {
+        studio.deck.recording()
+    } else {
+        recording_text(&experiment.scene)
     };
     let recording = recording.map_err(Error::failed)?;
     let mut rgba = renderer.buffer()?;

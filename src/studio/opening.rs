@@ -113,9 +113,14 @@ pub fn race_own_method(studio: &mut Studio, lane: LaneSpec) {
         ));
     }
     studio.loops = None;
+    count_as_opened(studio);
+    studio.viewer.set_notice(format!("{}: {}", method.id, method.about));
+}
+
+/// Counts the open run as another one than before, whose findings are not yet known.
+fn count_as_opened(studio: &mut Studio) {
     studio.deck.openings += 1;
     (studio.viewer.findings, studio.viewer.dialog) = (None, None);
-    studio.viewer.set_notice(format!("{}: {}", method.id, method.about));
 }
 
 /// Opens the spring that a person has described under the recommended method, in solo mode and running, and shows
@@ -132,8 +137,7 @@ pub fn reload_own_method(studio: &mut Studio, lane: LaneSpec) {
     let (tick, is_race) = (race.tick(), race.mode() == Mode::Race);
     let by_hand = race.journal().rows()[..race.done()].iter();
     let by_hand = by_hand.filter(|row| row.author == Author::Person);
-    let mut actions: Vec<(u64, Action)> =
-        by_hand.map(|row| (row.tick, row.action.clone())).collect();
+    let actions: Vec<(u64, Action)> = by_hand.map(|row| (row.tick, row.action.clone())).collect();
     race_own_method(studio, lane);
     if !studio.entries().iter().any(|entry| entry.method == method) {
         return;
@@ -142,7 +146,7 @@ pub fn reload_own_method(studio: &mut Studio, lane: LaneSpec) {
         let told = format!("{}: reloaded from the start; {}", method.id, method.about);
         return studio.viewer.set_notice(told);
     }
-    let mut actions = actions.drain(..).peekable();
+    let mut actions = actions.into_iter().peekable();
     loop {
         let now = studio.race().tick();
         while let Some((_, action)) = actions.next_if(|(at, _)| *at <= now) {
@@ -319,9 +323,10 @@ fn change_in_flight(studio: &mut Studio, scene: Scene, actions: Vec<Action>) -> 
         next.reload(scene);
         true
     });
-    (studio.deck.openings, studio.viewer.findings, studio.viewer.dialog) =
-        (studio.deck.openings + 1, None, None);
-    at_once.into_iter().for_each(|action| act(studio, action));
+    count_as_opened(studio);
+    for action in at_once {
+        act(studio, action);
+    }
     studio.deck.run.show_present();
     told
 }
@@ -346,10 +351,13 @@ fn run_again(studio: &mut Studio, scene: Scene) -> String {
         Mode::Race => format!(", every lane in that of {}", selected.spec.method.name),
     };
     restart(studio, Some("the change of the file"), |next| next.reload(scene));
-    (studio.deck.openings, studio.viewer.findings, studio.viewer.dialog) =
-        (studio.deck.openings + 1, None, None);
-    (0..tick).for_each(|_| make_tick(studio, &mut ()));
-    actions.into_iter().for_each(|action| act(studio, action));
+    count_as_opened(studio);
+    for _ in 0..tick {
+        make_tick(studio, &mut ());
+    }
+    for action in actions {
+        act(studio, action);
+    }
     studio.deck.running &= !studio.deck.comes_to_rest(studio.viewer.motion());
     studio.deck.run.show_present();
     match tick {

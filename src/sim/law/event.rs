@@ -6,6 +6,10 @@ use super::tape::MAX_SWITCHES;
 use super::{Equations, FIRST_COORDINATE, LawText, MAX_EVENTS, Registers, T, Tape};
 use crate::impact::Wall;
 
+/// A time (s) at which a wall that turns or stretches with time is seen to differ from that at time 0: no period of
+/// plain numbers divides it.
+const OTHER_TIME_S: f64 = 1.375;
+
 /// Returns the index of the coordinate that each event is about, or the faults of the events that are no walls.
 pub(super) fn coordinates_of(text: &LawText, when: &[Tape]) -> Result<Vec<usize>, Vec<LawFault>> {
     let moves = FIRST_COORDINATE..FIRST_COORDINATE + text.coordinates.len();
@@ -108,7 +112,7 @@ impl Equations {
             Some(ExpressionFault::new(0..self.part(part).len(), what, remedy).of(part))
         };
         for (i, event) in self.text.events.iter().enumerate() {
-            let slopes = [0.0, 1.375].map(|t| self.slope(registers, i, t));
+            let slopes = [0.0, OTHER_TIME_S].map(|t| self.slope(registers, i, t));
             let wall = self.wall(registers, i, 0.0).filter(|wall| wall.at.is_finite());
             let Some(wall) = wall.filter(|_| slopes[0] != 0.0 && slopes[0] == slopes[1]) else {
                 let what = "`when` does not change evenly with its coordinate";
