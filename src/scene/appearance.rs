@@ -8,9 +8,9 @@ use std::sync::{Arc, Mutex, PoisonError};
 use glam::DVec2;
 
 use super::outline::Mark;
-use crate::sim::Counted;
 use crate::sim::bodies::{Body, Custom, Kind, Law, Net, NetPlan};
-use crate::sim::integrators::{DormandPrince54, Integrator, SemiImplicitEuler};
+use crate::sim::integrators::{Integrator, SemiImplicitEuler, method};
+use crate::sim::{Solver, stepper};
 use node_lines::lines;
 
 mod node_lines;
@@ -143,22 +143,21 @@ impl Preview {
 
     /// Returns the preview of a body with these `places` for its coordinates. The body is followed until it runs away.
     fn of<B: Body<Vector = Vec<f64>>>(body: &B, places: impl Fn(&[f64]) -> Vec<DVec2>) -> Self {
-        let mut state = body.start();
-        let mut preview = Self::new(state.q.len());
-        preview.add_moment(&state.q, places(&state.q));
-        let body = Counted::new(body.clone());
-        let mut solver = <DormandPrince54<Vec<f64>> as Integrator<Counted<B>>>::new(&state.q);
-        let mut near = vec![f64::INFINITY; state.q.len()];
+        let method = method("dormand-prince-54").expect("a method of the table");
+        let mut stepper = stepper(body.clone(), Solver::Method(method));
+        let mut preview = Self::new(stepper.q().len());
+        preview.add_moment(stepper.q(), places(stepper.q()));
+        let mut near = vec![f64::INFINITY; stepper.q().len()];
         for tick in 0..TICKS {
-            let stepped = solver.step(&body, f64::from(tick) * TICK_S, TICK_S, &mut state);
+            let stepped = stepper.advance(f64::from(tick) * TICK_S, TICK_S, 1);
             let is_near = |(q, most): (&f64, &f64)| q.is_finite() && q.abs() <= *most;
             if stepped.is_err()
-                || body.evaluations() > MAX_EVALUATIONS
-                || !state.q.iter().zip(&near).all(is_near)
+                || stepper.evaluations() > MAX_EVALUATIONS
+                || !stepper.q().iter().zip(&near).all(is_near)
             {
                 break;
             }
-            preview.add_moment(&state.q, places(&state.q));
+            preview.add_moment(stepper.q(), places(stepper.q()));
             if tick == 60 {
                 let most = |(low, high): &(f64, f64)| RUNAWAY * low.abs().max(high.abs()).max(1e-9);
                 near = preview.ranges.iter().map(most).collect();
