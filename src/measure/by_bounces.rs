@@ -59,7 +59,7 @@ pub(super) async fn follow_bounces(
         let t = tick_hz.seconds(tick);
         (seconds, evaluations) = (t, body.stepper.evaluations());
         let now = body.stepper.bounces().copied().unwrap_or_default();
-        let (y, speed) = (now.height(), body.stepper.v()[now.coordinate].abs());
+        let (y, speed) = (now.distance, body.stepper.v()[now.coordinate].abs());
         highest = highest.max(y);
         heights.push(body.stepper.q()[now.coordinate]);
         if t + rest_s > until_s {

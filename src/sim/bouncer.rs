@@ -6,7 +6,7 @@
 //! time rests, or one step would have infinitely many impacts.
 
 use super::body::Body;
-use super::impact::{Bounces, Locating, Rule, Turn, Wall};
+use super::impact::{Bounces, Locating, Rule, Turn, Wall, comes_to_rest};
 use super::integrators::{EngineBounce, Method, Problem, StepFailure, Stepped};
 use super::near_wall::NearWall;
 use super::propagator::Propagator;
@@ -19,9 +19,6 @@ const MAX_IMPACTS: u32 = 1000;
 
 /// The largest number of trials for the time of an impact.
 const MAX_TRIALS: u32 = 60;
-
-/// A flight shorter than this, in seconds, ends the bouncing: the error is below 1e-17 m.
-const SHORTEST_FLIGHT_S: f64 = 1e-9;
 
 /// A method with a rule for impacts. Bodies without walls are stepped by the method itself.
 #[derive(Clone)]
@@ -283,7 +280,7 @@ impl<P: Clone, V: Vector> Bouncer<P, V> {
             let [_, speed] = contact.turn(&body.system, hit_at, y);
             self.land(body, hit_at, y, [before, speed]);
             let push = contact.push(body, hit_at, y, &mut self.a);
-            if push < 0.0 && (2.0 * speed < -push * SHORTEST_FLIGHT_S || impacts == MAX_IMPACTS) {
+            if comes_to_rest(speed, push) || push < 0.0 && impacts == MAX_IMPACTS {
                 if y.q.components().len() > 1 {
                     self.inner.step(body, hit_at, rest, 1, y)?;
                 }

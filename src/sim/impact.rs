@@ -27,6 +27,15 @@ pub struct Wall {
 #[cfg(feature = "lab")]
 const SOFT_HZ: f64 = 4.77;
 
+/// A flight shorter than this, in seconds, ends the bouncing: the error is below 1e-17 m.
+const SHORTEST_FLIGHT_S: f64 = 1e-9;
+
+/// Whether a body that leaves a wall with this speed, and is pushed away from it by this acceleration, is back so soon
+/// that it rests.
+pub(super) fn comes_to_rest(speed: f64, push: f64) -> bool {
+    push < 0.0 && 2.0 * speed < -push * SHORTEST_FLIGHT_S
+}
+
 impl Wall {
     /// Returns the wall at rest where it now is. Heights of flights are above the lower wall at rest where it is at
     /// time 0, because the distance from a wall that swings has many peaks in a flight.
@@ -216,11 +225,13 @@ pub struct Bounces {
     pub landed_at_s: f64,
     /// The velocities away from the wall before and after that impact; NaN after it for a soft wall.
     pub speeds: [f64; 2],
-    /// The height of the last completed flight above the lower wall: the vertex of the parabola through its highest
+    /// The height of the last completed flight above the lower wall, where that is at time 0: the vertex of the parabola through its highest
     /// ticks. `None` before the first.
     pub apex: Option<f64>,
     /// The number of impacts before that flight.
     pub apex_after: u64,
+    /// The distance from the lower wall at the end of the last tick, below 0 beyond it.
+    pub distance: f64,
     /// The deepest that the body was below the lower wall at the end of a tick; 0 or more.
     pub depth: f64,
     /// How far the body was beyond the wall where the rule met it at the last impact; 0 if it found the impact itself.
@@ -244,7 +255,7 @@ impl Bounces {
         *self = Self { depth: self.depth, coordinate: self.coordinate, ..Self::default() };
     }
 
-    /// Returns the height above the lower wall at the end of the last tick.
+    /// Returns the height above the lower wall, where that is at time 0, at the end of the last tick.
     pub fn height(&self) -> f64 {
         self.heights[2]
     }
@@ -256,7 +267,7 @@ impl Bounces {
 
     /// Adds the height of a flight at the end of a tick, and the distance from the lower wall.
     pub(super) fn add(&mut self, height: f64, distance: f64) {
-        self.depth = self.depth.max(-distance);
+        (self.depth, self.distance) = (self.depth.max(-distance), distance);
         let [_, before, last] = self.heights;
         self.heights = [before, last, height];
         self.known = (self.known + 1).min(3);

@@ -10,8 +10,8 @@ use crate::look::palette::fade;
 use crate::run::METRICS;
 use crate::run::past::{Sample, SweptRange};
 use crate::run::race::Entrant;
-use crate::sim::Bounces;
 use crate::sim::number::significant;
+use crate::sim::{Bounces, Stepper};
 
 /// Half the width of a height mark, in points.
 const APEX: f32 = 34.0;
@@ -58,7 +58,7 @@ pub(super) fn draw(
     let own = &lane.lane.bodies()[index].stepper;
     let bounced = |bounces: &Bounces| {
         let truth = &moment.studio.race().truth().bodies()[index].stepper;
-        let floor = own.q()[bounces.coordinate] - bounces.height();
+        let floor = floor(&**own);
         let heights = [bounces.apex?, truth.true_bounce(bounces.apex_after)?[1]];
         Some((floor + heights[0], floor + heights[1]))
     };
@@ -122,6 +122,11 @@ fn flights<'s>(samples: impl Iterator<Item = &'s Sample>) -> Vec<(u64, f64)> {
     found
 }
 
+/// Returns the place above which a body's heights are counted.
+fn floor(body: &dyn Stepper) -> f64 {
+    body.bounces().map_or(0.0, |it| body.q()[it.coordinate] - it.height())
+}
+
 /// Draws a bar for each bounce of a body with walls, beside its floor: the exact height hollow, that of the lane in
 /// front full, those of others as strokes.
 pub(super) fn strip(
@@ -139,7 +144,7 @@ pub(super) fn strip(
     let since_s = moment.studio.past().changed_s();
     let of = |lane: &Entrant| flights(moment.history(lane, index).since(since_s));
     let own = &front.lane.bodies()[index].stepper;
-    let base = own.bounces().map_or(0.0, |it| own.q()[it.coordinate] - it.height());
+    let base = floor(&**own);
     let [left, floor] = camera.points(DVec2::new(half_m.x, base));
     let room = (camera.rect.max[0] - 2.0 * ASIDE - left) / PITCH;
     let (most, own) = (room.max(0.0) as usize, of(front));

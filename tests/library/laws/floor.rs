@@ -1,5 +1,7 @@
 //! Events of laws: walls at which velocities turn, with a truth that stays above them.
 
+use regatta::measure::{Judge, Outcome};
+use regatta::run::Lane;
 use regatta::scene::{LaneSpec, Scene};
 use regatta::sim::integrators::method;
 use regatta::sim::{IMPACTS, Solver, Stepper, impact, own_method};
@@ -130,6 +132,40 @@ fn the_bounces_on_a_paddle_end_where_the_truth_does_not_know_itself() {
     assert!((10..30).contains(&known) && (4.0..12.0).contains(&last_s), "{known}: {last_s} s");
     let errors = [3.0, 12.0].map(|t| after(text, Solver::Truth, t, 60).truth_error().unwrap()[0]);
     assert!(errors[0] < 1e-9 && errors[1] > 1e-3, "{errors:?}");
+}
+
+#[test]
+fn a_floor_that_sinks_is_not_sunk_through_and_one_that_swings_has_true_apexes() {
+    let lift = "[[law]]\n[law.coordinates.y]\nstart = 0.1\nacceleration = '-9.81'\n[law.events.lift]\n\
+                when = 'y + 0.5*t'\nthen = { vy = '-0.5 - 0.5*(vy + 0.5)' }\n";
+    let scene = parse(lift).unwrap_or_else(|errors| panic!("{errors}"));
+    let lane = LaneSpec::plain(method("velocity-verlet").unwrap());
+    let verdict = Judge::over(&scene, 10.0).verdict(lane, 60);
+    assert_eq!(verdict.outcome(), Outcome::Accurate, "{verdict}");
+    let end = after(lift, under("velocity-verlet", "locate"), 8.0, 60);
+    assert!((end.q()[0] + 4.0).abs() < 1e-9 && end.bounces().unwrap().distance.abs() < 1e-9);
+
+    // A flight of 0.29 s between the impacts of the truth: its top by hand.
+    let paddle = "[[law]]\n[law.coordinates.y]\nstart = 0.3\nacceleration = '-9.81'\n[law.events.paddle]\n\
+                  when = 'y - 0.01*sin(60*t)'\nthen = { vy = '0.6*cos(60*t) - 0.8*(vy - 0.6*cos(60*t))' }\n";
+    let truth = after(paddle, Solver::Truth, 0.5, 60);
+    let [[t0, apex], [t1, _]] = [1, 2].map(|impact| truth.true_bounce(impact).unwrap());
+    let [y0, y1] = [t0, t1].map(|t| 0.01 * (60.0 * t).sin());
+    let up = (y1 - y0) / (t1 - t0) + 9.81 / 2.0 * (t1 - t0);
+    let top = y0 + up * up / (2.0 * 9.81);
+    assert!((apex - top).abs() < 1e-9, "{apex}, not {top}");
+    let lane = after(paddle, under("velocity-verlet", "locate"), 0.5, 60);
+    let own = lane.bounces().unwrap();
+    assert_eq!(own.apex_after, 1);
+    assert!((own.apex.unwrap() - top).abs() < 1e-9, "{own:?}, not {top}");
+}
+
+#[test]
+fn a_law_with_a_floor_is_framed_by_its_bounces() {
+    let scene = parse(&falling("start = 1", "-g", 0.8, "y")).unwrap();
+    let lane = Lane::new(&scene, under("velocity-verlet", "locate"), 1);
+    let [(low, high)] = lane.bodies()[0].preview().ranges[..] else { panic!("one coordinate") };
+    assert!((-1e-9..0.1).contains(&low) && high == 1.0, "{low} to {high}");
 }
 
 #[test]

@@ -2,15 +2,12 @@
 
 use super::Law;
 use crate::body::{Body, Distances, Piece};
-use crate::impact::Wall;
+use crate::impact::{Wall, comes_to_rest};
 use crate::law::{At, Registers};
 use crate::state::State;
 
 /// The mode of a wall on which the law rests.
 const RESTS: i64 = 1;
-
-/// A flight shorter than this, in seconds, ends the bouncing.
-const SHORTEST_FLIGHT_S: f64 = 1e-9;
 
 impl Law {
     /// Returns the wall with the restitution that the event has at 1 unit per second.
@@ -50,7 +47,7 @@ impl Law {
         let speed = wall.speed(&state.v);
         // A flight that is lower than the rounding of the place is none.
         let is_low = speed * speed < -push * 8.0 * f64::EPSILON * wall.at.abs();
-        if push < 0.0 && (is_low || 2.0 * speed < -push * SHORTEST_FLIGHT_S) {
+        if push < 0.0 && is_low || comes_to_rest(speed, push) {
             state.v[wall.coordinate] = wall.velocity;
             *mode = RESTS;
         }
