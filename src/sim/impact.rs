@@ -225,8 +225,8 @@ pub struct Bounces {
     pub landed_at_s: f64,
     /// The velocities away from the wall before and after that impact; NaN after it for a soft wall.
     pub speeds: [f64; 2],
-    /// The height of the last completed flight above the lower wall, where that is at time 0: the vertex of the parabola through its highest
-    /// ticks. `None` before the first.
+    /// The height of the last completed flight above the lower wall, where that is at time 0: the vertex of the
+    /// parabola through its highest ticks. `None` before the first.
     pub apex: Option<f64>,
     /// The number of impacts before that flight.
     pub apex_after: u64,
