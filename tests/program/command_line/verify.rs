@@ -416,11 +416,13 @@ fn frames_without_a_place_or_an_end_are_named() {
         assert!(stdout.contains("frame-000002.png: ") && !stdout.contains("same: 7"), "{stdout}");
     }
     fs::write(frame(2), &whole).unwrap();
-    fs::write(frame(12), &whole).unwrap();
-    let (code, stdout, _) = verify(folder.path(), "");
-    assert_eq!(code, Some(1));
-    assert!(
-        stdout.contains("frame-000012.png: no frame of the manifest has this name"),
-        "{stdout}"
-    );
+    for surplus in ["frame-000012.png", "frame-12.png"] {
+        let path = folder.path().join("clip").join(surplus);
+        fs::write(&path, &whole).unwrap();
+        let (code, stdout, _) = verify(folder.path(), "");
+        assert_eq!(code, Some(1));
+        let named = format!("{surplus}: no frame of the manifest has this name");
+        assert!(stdout.contains(&named), "{stdout}");
+        fs::remove_file(path).unwrap();
+    }
 }

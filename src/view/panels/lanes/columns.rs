@@ -200,6 +200,7 @@ fn cost<'a>() -> Column<Row<'a>> {
 
 #[cfg(test)]
 mod tests {
+    use crate::measure::Severity;
     use crate::panels::lanes;
     use crate::scene::Scene;
     use crate::studio::guide::STOPS;
@@ -245,6 +246,21 @@ mod tests {
             studio.apply(ViewCommand::Predict(0));
             assert!(names(&studio).len() > 4 && said(&studio).sign.is_some(), "stop {stop}");
         }
+    }
+
+    #[test]
+    fn no_method_is_fine_beside_a_swing_that_has_grown_under_another() {
+        let mut studio = Studio::new(Scene::built_in("spring").unwrap());
+        studio.analyse();
+        let rk4 = studio.entries().iter().position(|entry| entry.method.id == "rk4").unwrap();
+        let on = |studio: &Studio, entry| lanes::verdict_on(studio, entry);
+        assert_eq!(on(&studio, rk4).sign.unwrap().1, Severity::Fine);
+        let of_here = on(&studio, studio.active()).whole().to_owned();
+        studio.tick();
+        let rk4s = on(&studio, rk4);
+        assert_eq!(rk4s.sign.unwrap().1, Severity::Unknown);
+        assert!(rk4s.whole().starts_with("from the start: "), "{}", rk4s.whole());
+        assert_eq!(on(&studio, studio.active()).whole(), of_here);
     }
 
     #[test]

@@ -1,9 +1,9 @@
 //! Verdicts in the rows of the table of lanes.
 
-use crate::measure::Outcome;
+use crate::measure::{Outcome, Severity};
 use crate::panels::verdict::VerdictText;
 use crate::run::MenuIndex;
-use crate::run::race::Entrant;
+use crate::run::race::{Entrant, Mode};
 use crate::studio::Studio;
 
 /// Returns the verdict on the method at this index of the list, and on its lane if there is one. The verdict names the
@@ -54,7 +54,25 @@ pub(super) fn text_of(
     };
     let is_named = body.is_none() && named_above != Some(verdict.body);
     let is_current = studio.viewer.is_judged_now(&studio.deck, entry);
-    VerdictText { is_current, ..text(verdict.outcome(), verdict.wordings(is_named)) }
+    let text = VerdictText { is_current, ..text(verdict.outcome(), verdict.wordings(is_named)) };
+    if entrant.is_none() && has_strayed(studio) { from_the_start(text) } else { text }
+}
+
+/// Whether the only lane has gone on with a visible error. A method that took over now would begin with that error,
+/// which its own verdict lacks.
+fn has_strayed(studio: &Studio) -> bool {
+    let race = studio.race();
+    let severity = || super::verdict_on(studio, studio.active()).sign.map(|(_, severity)| severity);
+    studio.mode() == Mode::Solo
+        && race.t() > studio.run().checkpoints().verdicts_start_at_s()
+        && matches!(severity(), Some(Severity::Doubtful | Severity::Bad))
+}
+
+/// Says that a verdict holds only if its method had run from the start. Its sign has no colour.
+fn from_the_start(text: VerdictText) -> VerdictText {
+    let sign = text.sign.map(|(sign, _)| (sign, Severity::Unknown));
+    let wordings = text.wordings.iter().map(|words| format!("from the start: {words}")).collect();
+    VerdictText { sign, wordings, ..text }
 }
 
 fn text(outcome: Outcome, wordings: Vec<String>) -> VerdictText {
