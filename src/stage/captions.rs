@@ -549,7 +549,7 @@ pub(super) fn ghost_name(
         let [left, right] = span(&label);
         let is_taken = |other: &Label| {
             let [from, to] = span(other);
-            (other.at[1] - at_y).abs() < CHIP && from < right && to > left
+            (other.at[1] - at_y).abs() < CHIP && from < right + LETTER && to > left - LETTER
         };
         if picture.labels.iter().any(is_taken) || at_y == above && !is_above_free {
             continue;

@@ -39,7 +39,9 @@ const LEAST_SIZE: f32 = 0.65;
 /// Whether the stage, for a person who watches, has zoomed out far enough for landmarks.
 pub(super) fn is_shown(moment: &DrawContext<'_>, view: &BodyView, camera: &Camera) -> bool {
     let is_zooming = moment.studio.display().motion == Motion::Live && view.grown >= GROWN;
-    is_zooming && camera.unit == "m" && view.recorded_m().is_some()
+    // Closer up, the stage holds a part of the swing, which would be counted for the whole.
+    let is_whole = moment.studio.view().zoom_pan(view.zoomed_as).zoom() <= 1.0;
+    is_zooming && is_whole && camera.unit == "m" && view.recorded_m().is_some()
 }
 
 /// Lower end of a trail above the landmarks, if the cell has room for both.

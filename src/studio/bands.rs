@@ -96,6 +96,8 @@ mod tests {
         ] {
             studio.apply(command);
             assert_eq!(!studio.bands().is_empty(), has_bands, "{:?}", studio.display());
+            let hint = studio.hint().unwrap_or_default();
+            assert_eq!(hint.contains("`4`: more methods"), has_bands, "{hint}");
         }
         studio.apply(StageCommand::ToggleArrangement);
         assert!(studio.bands().is_empty());

@@ -91,6 +91,8 @@ pub(super) struct HintContext<'a> {
     /// Whether a person has paused the run.
     pub(super) is_paused: bool,
     pub(super) is_in_loop_lab: bool,
+    /// Whether the stage has bands, which digits show and take away.
+    pub(super) has_bands: bool,
     /// Whether the selected lane has lost a body.
     pub(super) is_lost: bool,
     pub(super) display: &'a Display,

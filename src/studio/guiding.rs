@@ -40,6 +40,7 @@ fn hint_context(studio: &Studio) -> HintContext<'_> {
         speed_percent: studio.deck.clock.speed_percent(),
         is_paused: !studio.deck.running && !studio.deck.comes_to_rest(studio.viewer.motion()),
         is_in_loop_lab: studio.loops.is_some(),
+        has_bands: !studio.bands().is_empty(),
         is_lost: studio.deck.lost_at().is_some(),
         display: studio.display(),
     }

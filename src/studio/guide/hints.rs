@@ -169,6 +169,7 @@ fn applies(hint: &str, now: &HintContext<'_>) -> bool {
     let is_of_mode = asks(|asked| {
         matches!(asked, Pick(_) | Method(_) | MethodBeside(_) | ToggleRace | ToggleArrangement)
     });
+    let is_of_bands = now.scene.opens_in_bands && asks(|asked| matches!(asked, Pick(_)));
     let lanes = &now.scene.lanes;
     let hint = hint.to_lowercase();
     let is_of_method = asks(|asked| matches!(asked, Pick(_) | Method(_) | MethodBeside(_)))
@@ -180,6 +181,7 @@ fn applies(hint: &str, now: &HintContext<'_>) -> bool {
         && now.race.tick_hz() == now.scene.tick_hz
         && (!is_of_mode || now.race.mode() == opens_in)
         && (!is_of_method || now.race.mode() == Mode::Race || Some(now.method()) == opening)
+        && (!is_of_bands || now.has_bands)
         && !asked.iter().any(is_beyond)
         && (now.race.mode() == Mode::Race || !asked.iter().any(is_done))
 }
