@@ -72,6 +72,8 @@ pub struct Identification {
     pub best: Option<Fitted>,
     /// Other candidates that move this body alike.
     pub also: Vec<Candidate>,
+    /// Usual candidates that move this body differently and fit as well, the likeliest first.
+    pub rivals: Vec<Candidate>,
     /// Other candidates that move this body differently and fit as well, but are set aside as rare.
     pub unusual: Vec<Candidate>,
     /// The best candidate that moves this body differently. If nearly all methods fit, it is a candidate of another
@@ -191,7 +193,8 @@ fn identify_with(
 ) -> Option<Identification> {
     let seen = swing.filter(|swing| swing.residual <= NO_SWING).map(|swing| swing.seen);
     let fits = search(log, body, Start { tick_hz, rest: first_rest, seen });
-    let Decision { conclusion, same, unusual, rival } = decide(&fits, body, log.is_double())?;
+    let Decision { conclusion, same, rivals, unusual, rival } =
+        decide(&fits, body, log.is_double())?;
     let (best, best_fit) = same.first()?;
     let fitted = |(candidate, fit): &(Candidate, Fit)| Fitted {
         candidate: *candidate,
@@ -220,6 +223,7 @@ fn identify_with(
         conclusion,
         best: Some(Fitted { candidate: *best, residual: best_fit.residual() }),
         also: of(&same[1..]),
+        rivals: of(&rivals),
         unusual: of(&unusual),
         runner_up: rival.map(fitted),
         rest: body.rest.unwrap_or(0.0),

@@ -27,9 +27,15 @@ pub(super) fn object(found: Option<&Identification>, log: &Log, mass: f64) -> Va
         let all = found.map(all).unwrap_or_default();
         with_others(all).map(named).collect()
     };
-    let also =
-        found.and_then(|found| Some(with_also(&found.best.as_ref()?.candidate, &found.also)));
-    let also: Vec<Value> = also.into_iter().flatten().map(named).collect();
+    let also = found.and_then(|found| {
+        let also = with_also(&found.best.as_ref()?.candidate, &found.also);
+        let rivals = match found.conclusion {
+            Conclusion::CannotTell => &found.rivals[..],
+            _ => &[],
+        };
+        Some(also.chain(with_others(rivals)).map(named).collect())
+    });
+    let also: Vec<Value> = also.unwrap_or_default();
     let halves = effective.and_then(|seen| seen.energy_halves_s());
     let seen = |(method, effective): &(&Method, Effective)| {
         json!({
@@ -245,9 +251,13 @@ fn verdict(found: &Identification, log: &Log) -> String {
             format!("{moves}, {}{supposed}", residual(best))
         }
         (Conclusion::CannotTell, Some(rival)) => format!(
-            "cannot tell {} from {}: {} and {:.1e}; {}",
+            "cannot tell {} from {}{}: {} and {:.1e}; {}",
             best.candidate,
             rival.candidate,
+            match best.candidate.method.is_engine() || rival.candidate.method.is_engine() {
+                true => ", or code with the same step",
+                false => "",
+            },
             residual(best),
             rival.residual,
             match (log.has_velocities(), found.is_spring_fitted) {
@@ -332,6 +342,9 @@ pub(super) fn report_text(found: &Identification, log: &Log, mass: f64) -> Strin
     let also = told.map_or(String::new(), |best| names(with_also(best, &found.also)));
     if !also.is_empty() {
         lines.push(format!("the same on this body: {also}"));
+    }
+    if *conclusion == Conclusion::CannotTell && found.rivals.len() > 1 {
+        lines.push(format!("as near in another way: {}", names(with_others(&found.rivals))));
     }
     if *conclusion == Conclusion::Identified && !found.unusual.is_empty() {
         lines.push(format!(

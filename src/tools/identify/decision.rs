@@ -46,6 +46,8 @@ pub(super) struct Decision<'a> {
     pub(super) conclusion: Conclusion,
     /// The best candidate, followed by its equivalents.
     pub(super) same: Vec<&'a (Candidate, Fit)>,
+    /// Usual candidates that move differently and explain the log as well, the likeliest first.
+    pub(super) rivals: Vec<&'a (Candidate, Fit)>,
     /// Other candidates that explain the log as well, but are set aside as rare.
     pub(super) unusual: Vec<&'a (Candidate, Fit)>,
     /// The nearest candidate that moves differently. If that one is implausible and nearly all methods fit, it is an
@@ -103,6 +105,9 @@ pub(super) fn decide<'a>(
         fits_as_well(fitted) && !is_plausible(fitted) && !is_rival
     };
     let unusual = others.iter().copied().filter(is_set_aside).collect();
+    let is_rival = |fitted: &&(Candidate, Fit)| fits_as_well(fitted) && is_plausible(fitted);
+    let mut rivals: Vec<_> = others.iter().copied().filter(is_rival).collect();
+    rivals.sort_by(by_both);
     let is_doubtful = best.1.is_doubtful() && !is_clear;
     let conclusion = if gains || !explains(best) {
         Conclusion::Unknown
@@ -111,7 +116,7 @@ pub(super) fn decide<'a>(
     } else {
         Conclusion::Identified
     };
-    Some(Decision { conclusion, same, unusual, rival })
+    Some(Decision { conclusion, same, rivals, unusual, rival })
 }
 
 /// Whether nearly all methods explain the log, so that it decides nothing.
