@@ -23,6 +23,7 @@ use decision::{Decision, NO_FIT, decide, rounding};
 pub use effective::Effective;
 use fit::{Fit, Start, fit};
 pub use logged::{Log, LogError, LogRow, LogSetting, LoggedBody};
+use matching_spring::map_of_log;
 pub(crate) use motion::{SLOW, run};
 pub use simplest::SimpleMotion;
 use simplest::{drifting, refusal, simplest};
@@ -192,7 +193,9 @@ fn identify_with(
     swing: Option<FittedSwing>,
 ) -> Option<Identification> {
     let seen = swing.filter(|swing| swing.residual <= NO_SWING).map(|swing| swing.seen);
-    let fits = search(log, body, Start { tick_hz, rest: first_rest, seen });
+    let rest = body.rest.or(first_rest).unwrap_or(0.0);
+    let map = if body.spring.is_none() { map_of_log(&log.resting_at_zero(rest)) } else { None };
+    let fits = search(log, body, Start { tick_hz, rest: first_rest, seen, map });
     let Decision { conclusion, same, rivals, unusual, rival } =
         decide(&fits, body, log.is_double())?;
     let (best, best_fit) = same.first()?;
@@ -354,7 +357,7 @@ fn nearest(log: &Log, body: &LoggedBody, tick_hz: f64) -> Option<Effective> {
         None => free.drag = seen.decay,
     }
     let exact = Candidate { method: method(EXACT)?, substeps: 1, spring: SpringForm::Acceleration };
-    let fit = fit(log, &free, exact, Start { tick_hz, rest: None, seen: None })?;
+    let fit = fit(log, &free, exact, Start { tick_hz, rest: None, seen: None, map: None })?;
     let is_near = fit.residual() <= NO_FIT;
     is_near.then(|| Effective::exact(&fit.body))?
 }

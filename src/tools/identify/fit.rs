@@ -3,7 +3,7 @@
 use super::candidates::Candidate;
 use super::effective::Effective;
 use super::logged::{Log, LoggedBody};
-use super::matching_spring::matching_spring;
+use super::matching_spring::{Map, matching_spring};
 use super::motion::{run, run_by_map};
 use crate::sim::least_squares;
 
@@ -81,6 +81,8 @@ pub(super) struct Start {
     pub(super) rest: Option<f64>,
     /// The motion that the log shows, from which the spring is found if it is fitted.
     pub(super) seen: Option<Effective>,
+    /// The map of a tick that the log shows about its rest, if it is needed.
+    pub(super) map: Option<Map>,
 }
 
 /// Fits `candidate` to a log. `None` if the candidate cannot run on the body, or if its run diverges.
@@ -88,7 +90,7 @@ pub(super) fn fit(
     log: &Log,
     body: &LoggedBody,
     candidate: Candidate,
-    Start { tick_hz, rest: first_rest, seen }: Start,
+    Start { tick_hz, rest: first_rest, seen, map }: Start,
 ) -> Option<Fit> {
     let tick_s = 1.0 / tick_hz;
     let scale = log.scale();
@@ -105,9 +107,9 @@ pub(super) fn fit(
         };
         let seen = seen.or(of_log)?;
         body.spring = Some(of_log.and_then(spring).or_else(|| spring(seen))?);
-        other_spring = matching_spring(candidate, &body, tick_s, &seen);
+        other_spring = matching_spring(candidate, &body, tick_s, (&seen, map));
     }
-    let (start, displacement) = start_of(log, &body, tick_s);
+    let (mut start, mut displacement) = start_of(log, &body, tick_s);
     let iterations = match (is_spring_known, log.has_velocities()) {
         (true, true) => ITERATIONS,
         (true, false) => ITERATIONS_WITHOUT_VELOCITY,
@@ -124,11 +126,23 @@ pub(super) fn fit(
     };
     if let Some(spring) = other_spring {
         let other = LoggedBody { spring: Some(spring), ..body.clone() };
-        let off = |body: &LoggedBody| {
+        let off = |body: &LoggedBody, start| {
             let states = stepped(body, start)?;
             Some(squares(&residuals(log, &states, scale))).filter(|off| off.is_finite())
         };
-        if off(&other).is_some_and(|there| off(&body).is_none_or(|here| there < here)) {
+        // A runaway begins below the scale of the log, but under the right spring it begins as logged.
+        let logged = [log.rows()[0].x, first_velocity(log, tick_s)];
+        let is_nearer = |start| {
+            off(&other, start)
+                .is_some_and(|there| off(&body, start).is_none_or(|here| there < here))
+        };
+        let is_right = || {
+            let near = NOTHING * NOTHING * log.numbers() as f64;
+            off(&other, logged).is_some_and(|off| off <= near)
+        };
+        if start != logged && body.v0.is_none() && is_right() {
+            (start, displacement, body) = (logged, DISPLACEMENT, other);
+        } else if is_nearer(start) {
             body = other;
         }
     }

@@ -143,6 +143,10 @@ const SMALL: f64 = 1e-5;
 /// Largest correlation of successive residuals that may be noise, and fewest rows that show it.
 const NOISE_LAG: f64 = 0.5;
 const MIN_ROWS: usize = 20;
+/// Largest residual that may be noise, relative to the root mean square, and relative to that of a log in which no other row
+/// leaves anything. A runaway is all in its last rows.
+const FEW: f64 = 6.0;
+const FEW_OF_ALL: f64 = 0.7;
 /// Number of rates on the grid.
 const GRID: i32 = 24;
 
@@ -166,12 +170,16 @@ struct Fitted {
     criterion: f64,
     rms: f64,
     lag: f64,
+    /// Largest residual, in metres.
+    largest: f64,
 }
 
 impl Fitted {
     /// Returns whether the fit leaves rounding, or noise in a log that is long enough to tell.
     fn is_known(&self, log: &Log) -> bool {
-        let is_noise = self.lag.abs() < NOISE_LAG && log.rows().len() >= MIN_ROWS;
+        let rows = log.rows().len();
+        let is_spread = self.largest <= FEW.min(FEW_OF_ALL * (rows as f64).sqrt()) * self.rms;
+        let is_noise = self.lag.abs() < NOISE_LAG && rows >= MIN_ROWS && is_spread;
         self.rms <= SMALL * spread(log) || is_noise
     }
 }
@@ -218,7 +226,9 @@ impl Model {
             1 + (self.columns)(0.0, rate).iter().flatten().count() + usize::from(self.has_rate);
         let rms = rms(&residuals);
         let criterion = criterion(log, rms, numbers);
-        Some(Fitted { motion: (self.motion)(parts, rate), criterion, rms, lag: lag(&residuals) })
+        let largest = residuals.iter().fold(0.0_f64, |largest, r| largest.max(r.abs()));
+        let (motion, lag) = ((self.motion)(parts, rate), lag(&residuals));
+        Some(Fitted { motion, criterion, rms, lag, largest })
     }
 }
 
@@ -246,13 +256,17 @@ pub(super) fn drifting(log: &Log, body: &LoggedBody) -> Option<SimpleMotion> {
     let (hz, damping_ratio) = (swing.seen.frequency_hz()?, swing.seen.damping_ratio()?);
     let motion = SimpleMotion::DriftingSwing { hz, damping_ratio, v };
     let (criterion, rms, lag) = (criterion(log, swing.rms, 6), swing.rms, swing.lag);
-    let fit = Fitted { motion, criterion, rms, lag };
+    let fit = Fitted { motion, criterion, rms, lag, largest: rms };
     let is_simplest =
         simplest_of_models(log).is_none_or(|simple| fit.criterion < simple.criterion - GAIN);
-    let is_seen = hz * log.rows().last()?.t_s >= 1.0 && rms <= MOST_LEFT * spread(log);
+    let is_seen = hz * log.rows().last()?.t_s >= 1.0
+        && rms <= MOST_LEFT * spread(log)
+        && damping_ratio >= -MOST_GAIN;
     (is_simplest && is_seen && fit.is_known(log)).then_some(fit.motion)
 }
 
+/// A swing about a moving rest gains no more than this damping ratio. A runaway is no swing.
+const MOST_GAIN: f64 = 0.01;
 /// Share of the spread that a swing may leave at most, and from which on its residuals must look like noise.
 const MOST_LEFT: f64 = 0.3;
 const SMALL_LEFT: f64 = 0.005;
