@@ -53,9 +53,9 @@ acceleration, a chase, linear or quadratic drag. It is named where a swing lower
 criterion by less than 10 and the rest looks like noise. If nothing explains the log, a swing whose rest moves
 is tried, and then the answer says so.
 
-In JSON, best and also are the whole list of names: methods that do the same on this body and, where it cannot
-tell, those that explain the log as well in another way. unusual lists rare ones that fit too, and held says
-that the game applies the spring's force itself.
+In JSON, best and also are the whole list of names: methods that do the same on this body, where it cannot tell
+those that explain the log as well in another way, and rare ones that fit too, which unusual lists alone. held
+says that the game applies the spring's force itself.
 
 Examples:
   regatta identify spring.csv --tick-hz 60 --k 40 --c 0.5 --mass 2

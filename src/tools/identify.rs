@@ -194,7 +194,11 @@ fn identify_with(
 ) -> Option<Identification> {
     let seen = swing.filter(|swing| swing.residual <= NO_SWING).map(|swing| swing.seen);
     let rest = body.rest.or(first_rest).unwrap_or(0.0);
-    let map = if body.spring.is_none() { map_of_log(&log.resting_at_zero(rest)) } else { None };
+    let map = if body.spring.is_none() {
+        map_of_log(&log.resting_at_zero(rest), 1.0 / tick_hz)
+    } else {
+        None
+    };
     let fits = search(log, body, Start { tick_hz, rest: first_rest, seen, map });
     let Decision { conclusion, same, rivals, unusual, rival } =
         decide(&fits, body, log.is_double())?;

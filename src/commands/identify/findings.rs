@@ -29,11 +29,12 @@ pub(super) fn object(found: Option<&Identification>, log: &Log, mass: f64) -> Va
     };
     let also = found.and_then(|found| {
         let also = with_also(&found.best.as_ref()?.candidate, &found.also);
-        let rivals = match found.conclusion {
-            Conclusion::CannotTell => &found.rivals[..],
-            _ => &[],
+        let others: [&[Candidate]; 2] = match found.conclusion {
+            Conclusion::Identified => [&[], &found.unusual],
+            Conclusion::CannotTell => [&found.rivals, &found.unusual],
+            Conclusion::Unknown => [&[]; 2],
         };
-        Some(also.chain(with_others(rivals)).map(named).collect())
+        Some(also.chain(others.into_iter().flat_map(with_others)).map(named).collect())
     });
     let also: Vec<Value> = also.unwrap_or_default();
     let halves = effective.and_then(|seen| seen.energy_halves_s());
@@ -346,7 +347,7 @@ pub(super) fn report_text(found: &Identification, log: &Log, mass: f64) -> Strin
     if *conclusion == Conclusion::CannotTell && found.rivals.len() > 1 {
         lines.push(format!("as near in another way: {}", names(with_others(&found.rivals))));
     }
-    if *conclusion == Conclusion::Identified && !found.unusual.is_empty() {
+    if told.is_some() && !found.unusual.is_empty() {
         lines.push(format!(
             "would fit too, but few set them: {}",
             names(with_others(&found.unusual))

@@ -2,7 +2,7 @@
 
 use super::candidates::Candidate;
 use super::effective::Effective;
-use super::logged::{Log, LoggedBody};
+use super::logged::{Log, LogRow, LoggedBody};
 use super::motion::map_of_tick;
 use crate::sim::least_squares;
 
@@ -28,13 +28,20 @@ const ROUNDING: f64 = 1e-5;
 /// The map of a tick of a log, from x and v to the next x and v.
 pub(super) type Map = [[f64; 2]; 2];
 
-/// Returns the map of a tick that a log about its rest shows. `None` if the log lacks velocities.
-pub(super) fn map_of_log(log: &Log) -> Option<Map> {
-    let pairs: Vec<_> =
-        log.rows().windows(2).filter(|pair| pair[1].tick == pair[0].tick + 1).collect();
+/// Returns the map of a tick that a log about its rest shows, with this length of a tick. `None` if the log lacks
+/// velocities. Rows beyond the first count by their directions, for a runaway is all in its last rows.
+pub(super) fn map_of_log(log: &Log, tick_s: f64) -> Option<Map> {
+    let is_pair = |pair: &&[LogRow]| pair[1].tick == pair[0].tick + 1;
+    let pairs: Vec<_> = log.rows().windows(2).filter(is_pair).collect();
+    let far = |row: &LogRow| Some(libm::hypot(row.x, row.v? * tick_s));
+    let least = far(log.rows().first()?)?;
     let of = |row: usize| -> Option<[Vec<f64>; 2]> {
-        let x = pairs.iter().map(|pair| pair[row].x).collect();
-        Some([x, pairs.iter().map(|pair| pair[row].v).collect::<Option<_>>()?])
+        let parts = pairs.iter().map(|pair| {
+            let size = far(&pair[0])?.max(least);
+            Some([pair[row].x / size, pair[row].v? / size])
+        });
+        let parts: Vec<[f64; 2]> = parts.collect::<Option<_>>()?;
+        Some([0, 1].map(|of| parts.iter().map(|part| part[of]).collect()))
     };
     let (before, [x, v]) = (of(0)?, of(1)?);
     let row = |after: &[f64]| <[f64; 2]>::try_from(least_squares(&before, after)?).ok();
