@@ -3,8 +3,9 @@
 use csv::StringRecord;
 
 use super::Fault;
+use super::android;
 use super::durations::{self, Unreadable};
-use super::{Survey, android};
+use super::survey::Survey;
 use crate::scene::{clip, clip_list};
 use crate::table::{Decimal, Heading, Moment, TableOptions, Unit};
 
