@@ -146,13 +146,51 @@ pub(super) fn fit(
             body = other;
         }
     }
-    let refine = |go: &Run<'_>| {
-        let (mut start, mut body) = (start, body.clone());
+    let search =
+        Search { log, tick_s, displacement, fitted, iterations, is_halved: !is_spring_known };
+    let refine = |go: &Run<'_>| search.refine(go, start, body.clone());
+    // Most candidates are linear, so that the map of a tick stands for their steps.
+    let first = stepped(&body, start).zip(mapped(&body, start));
+    let is_linear = first.is_some_and(|(steps, map)| are_alike(&steps, &map));
+    let by_map = is_linear.then(|| refine(&mapped)).flatten().and_then(|(start, body, now)| {
+        let steps = stepped(&body, start)?;
+        are_alike(&steps, &now).then_some((start, body, steps))
+    });
+    let (start, body, now) = by_map.or_else(|| refine(&stepped))?;
+    let residuals = residuals(log, &now, scale);
+    let is_finite = residuals.iter().flatten().all(|r| r.is_finite());
+    let precise = precise(log, candidate);
+    is_finite.then_some(Fit { body, start, run: now, precise, residuals })
+}
+
+/// What a search for the best numbers of a body needs beside its runs.
+struct Search<'a> {
+    log: &'a Log,
+    tick_s: f64,
+    /// Displacement for the slopes, in units of the scale.
+    displacement: f64,
+    /// Indices of the parameters that are fitted.
+    fitted: Vec<usize>,
+    iterations: usize,
+    /// Whether a step that does not improve the fit is halved.
+    is_halved: bool,
+}
+
+impl Search<'_> {
+    /// Fits start and body by Gauss-Newton steps, and returns them with their run.
+    fn refine(
+        &self,
+        go: &Run<'_>,
+        mut start: [f64; 2],
+        mut body: LoggedBody,
+    ) -> Option<([f64; 2], LoggedBody, Vec<[f64; 2]>)> {
+        let Self { log, tick_s, displacement, ref fitted, iterations, is_halved } = *self;
+        let scale = log.scale();
         let mut now = go(&body, start)?;
         for _ in 0..iterations {
             let unit = start_unit(scale, &body, tick_s);
             let mut columns = Vec::new();
-            for index in &fitted {
+            for index in fitted {
                 let (mut there, mut other) = (start, body.clone());
                 displace(*index, displacement * unit[*index], &mut there, &mut other);
                 columns.push(go(&other, there)?);
@@ -167,7 +205,7 @@ pub(super) fn fit(
             let Some(change) = least_squares(&slopes, &residual) else { break };
             let worth = |states: &[[f64; 2]]| squares(&residuals(log, states, scale));
             let before = worth(&now);
-            let halvings = if is_spring_known { 0 } else { HALVINGS };
+            let halvings = if is_halved { HALVINGS } else { 0 };
             let nearer = (0..=halvings).find_map(|halving| {
                 let part = libm::scalbn(1.0, -(halving as i32));
                 let (mut there, mut other) = (start, body.clone());
@@ -184,19 +222,7 @@ pub(super) fn fit(
             }
         }
         Some((start, body, now))
-    };
-    // Most candidates are linear, so that the map of a tick stands for their steps.
-    let first = stepped(&body, start).zip(mapped(&body, start));
-    let is_linear = first.is_some_and(|(steps, map)| are_alike(&steps, &map));
-    let by_map = is_linear.then(|| refine(&mapped)).flatten().and_then(|(start, body, now)| {
-        let steps = stepped(&body, start)?;
-        are_alike(&steps, &now).then_some((start, body, steps))
-    });
-    let (start, body, now) = by_map.or_else(|| refine(&stepped))?;
-    let residuals = residuals(log, &now, scale);
-    let is_finite = residuals.iter().flatten().all(|r| r.is_finite());
-    let precise = precise(log, candidate);
-    is_finite.then_some(Fit { body, start, run: now, precise, residuals })
+    }
 }
 
 /// Returns the state from which a fit starts, and the displacement for its slopes.
