@@ -143,8 +143,8 @@ const SMALL: f64 = 1e-5;
 /// Largest correlation of successive residuals that may be noise, and fewest rows that show it.
 const NOISE_LAG: f64 = 0.5;
 const MIN_ROWS: usize = 20;
-/// Largest residual that may be noise, relative to the root mean square, and relative to that of a log in which no other row
-/// leaves anything. A runaway is all in its last rows.
+/// Largest residual that may be noise, relative to the root mean square, and relative to that of a log in which no
+/// other row leaves anything. A runaway is all in its last rows.
 const FEW: f64 = 6.0;
 const FEW_OF_ALL: f64 = 0.7;
 /// Number of rates on the grid.
