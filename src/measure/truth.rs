@@ -58,6 +58,7 @@ pub(super) struct BodyTruth {
     /// The script's later actions on the body within the horizon, in order.
     pub(super) inputs: Vec<Scripted>,
     pub(super) horizon_s: f64,
+    truth: Truth,
     /// Amplitude of each component of the state, with the coordinates first.
     pub(super) amplitudes: Vec<f64>,
     /// Centre of each coordinate's swing, which is the middle of its range, or the place of rest if the body loses
@@ -104,6 +105,7 @@ impl BodyTruth {
             at_start: at_start.into_iter().map(|input| input.action.clone()).collect(),
             inputs: later.cloned().collect(),
             horizon_s,
+            truth: body.kind.truth_of(&body.values),
             amplitudes: Vec::new(),
             centres: Vec::new(),
             reach: Reach::Each(Vec::new()),
@@ -170,7 +172,9 @@ impl BodyTruth {
         let reads_time =
             matches!(&self.body.kind.origin, Origin::Law(equations) if equations.reads_time());
         let pursuit = self.start(Solver::Truth).pursuit(0.0);
-        reads_time || pursuit.is_some_and(|pursuit| !pursuit.is_still)
+        // Of a ball whose floor moves.
+        let has_lost_form = self.body.kind.truth != self.truth;
+        reads_time || has_lost_form || pursuit.is_some_and(|pursuit| !pursuit.is_still)
     }
 
     /// Whether the body is judged by its bounces, up to a first input.
@@ -190,7 +194,7 @@ impl BodyTruth {
     /// Returns the work of one moment of the true motion, in evaluations of one coordinate.
     pub(super) fn work_of_moment(&self) -> u64 {
         let n = self.coordinates().len() as u64;
-        match self.body.kind.truth {
+        match self.truth {
             Truth::Exact => WORK_OF_MOMENT + n * n / PRODUCTS_PER_EVALUATION,
             Truth::Reference => WORK_OF_REFERENCE_MOMENT * n,
         }
@@ -199,7 +203,7 @@ impl BodyTruth {
     async fn survey(&mut self) {
         let mut body = self.start(Solver::Truth);
         let n = body.q().len();
-        let max_moments = match self.body.kind.truth {
+        let max_moments = match self.truth {
             Truth::Exact => MAX_MOMENTS,
             Truth::Reference => MAX_REFERENCE_MOMENTS,
         };
@@ -214,7 +218,7 @@ impl BodyTruth {
         let conserves = body.energy().is_some() && self.inputs.is_empty();
         let mut has_moved = false;
         // A reference is expensive, so its moments are kept.
-        let mut seen = (self.body.kind.truth == Truth::Reference).then(Vec::new);
+        let mut seen = (self.truth == Truth::Reference).then(Vec::new);
         let see = |from: &TruthNode, to: &TruthNode| {
             has_moved = true;
             if let Some(seen) = &mut seen {
@@ -244,7 +248,7 @@ impl BodyTruth {
         let mut first_swings_s = self.first_swings_of_modes_s();
         if !self.is_oscillator() && !returns && !self.fails_at_start {
             // Other motions are followed beyond the horizon, as far as the truth reaches.
-            let is_close = self.body.kind.truth == Truth::Reference && self.failure.is_none();
+            let is_close = self.truth == Truth::Reference && self.failure.is_none();
             let close = match is_close {
                 true => self.long_run(close_solver(), most).await.ok(),
                 false => None,

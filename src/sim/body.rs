@@ -2,6 +2,7 @@
 
 use glam::DVec2;
 
+use super::contact;
 use super::impact::Wall;
 use super::parameter::{self, ParameterOf};
 use super::state::Vector;
@@ -67,9 +68,14 @@ pub trait Body: System<Vector: Vector> + Clone + Send + 'static {
         unreachable!("a body with `HAS_EXACT` has a closed form");
     }
 
+    /// Whether the body has a closed form with its parameters. A kind with [`Body::HAS_EXACT`] may lose it.
+    fn has_exact(&self) -> bool {
+        Self::HAS_EXACT
+    }
+
     /// Returns the state that [`Body::exact_into`] computes from time 0; `None` if the body has no closed form.
     fn exact(&self, dt: f64, from: &StateOf<Self>) -> Option<StateOf<Self>> {
-        Self::HAS_EXACT.then(|| {
+        self.has_exact().then(|| {
             let mut to = from.clone();
             self.exact_into(0.0, dt, from, &mut to);
             to
@@ -92,6 +98,14 @@ pub trait Body: System<Vector: Vector> + Clone + Send + 'static {
         _to: &StateOf<Self>,
     ) -> [f64; 2] {
         [f64::INFINITY; 2]
+    }
+
+    /// Returns the acceleration of one coordinate. A body with coordinates on the heap and walls overrides this function
+    /// so that it does not allocate.
+    fn acceleration_of(&self, t: f64, state: &StateOf<Self>, coordinate: usize) -> f64 {
+        let mut a = state.v.clone();
+        self.acceleration(t, &state.q, &state.v, &mut a);
+        a.components()[coordinate]
     }
 
     /// Returns the wall with this index at time `t` (s), first the lower one; `None` beyond the last. Between impacts
@@ -142,22 +156,29 @@ pub trait Body: System<Vector: Vector> + Clone + Send + 'static {
         &self,
         piece: &mut Piece,
         [switch, side]: [usize; 2],
-        _t: f64,
-        _state: &mut StateOf<Self>,
+        t: f64,
+        state: &mut StateOf<Self>,
     ) -> bool {
+        if let Some(index) = switch.checked_sub(self.first_wall()) {
+            return contact::meet(self, index, &mut piece.modes[switch], t, state);
+        }
         piece.modes[switch] = self.neighbour(switch, piece.modes[switch], side);
         false
     }
 
     /// Returns the smooth piece of the force law at this time and state. A reference solution ends a step at each
     /// boundary between pieces, so that no step contains a corner.
-    fn piece(&self, _t: f64, _state: &StateOf<Self>) -> Piece {
-        Piece::FIRST
+    fn piece(&self, t: f64, state: &StateOf<Self>) -> Piece {
+        let mut piece = Piece::FIRST;
+        contact::write_rests(self, t, state, &mut piece);
+        piece
     }
 
     /// Returns the distances to the boundaries of a piece at this time and state.
-    fn distances_to_ends(&self, _piece: &Piece, _t: f64, _state: &StateOf<Self>) -> Distances {
-        NO_BOUNDARIES
+    fn distances_to_ends(&self, piece: &Piece, t: f64, state: &StateOf<Self>) -> Distances {
+        let mut distances = NO_BOUNDARIES;
+        contact::write_heights(self, piece, t, state, &mut distances);
+        distances
     }
 
     /// Returns the mode of a switch beyond the lower boundary (`side` 0) or the upper boundary (`side` 1) of `mode`.
@@ -176,13 +197,16 @@ pub trait Body: System<Vector: Vector> + Clone + Send + 'static {
     #[inline]
     fn acceleration_on(
         &self,
-        _piece: &Piece,
+        piece: &Piece,
         t: f64,
         q: &Self::Vector,
         v: &Self::Vector,
         a: &mut Self::Vector,
     ) {
         self.acceleration(t, q, v, a);
+        if const { Self::HAS_WALLS } {
+            contact::hold(self, piece, t, a);
+        }
     }
 
     /// Returns the conserved energy in joules; `None` if no energy is conserved.
