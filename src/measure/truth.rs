@@ -4,7 +4,7 @@
 //! method's own motion must not set the scale of its error. The truth itself may fail or be imprecise; then no lane is
 //! compared with it.
 
-use std::sync::Arc;
+use std::sync::{Arc, Mutex, OnceLock};
 
 use super::slices::Meter;
 use super::survey::{Ranges, TruthNode};
@@ -83,6 +83,9 @@ pub(super) struct BodyTruth {
     /// Whether the truth fails before anything has moved. Another walk would cost the same again and get no further.
     fails_at_start: bool,
     series_by_rate: TruthSeriesByRate,
+    /// The exact motion of a body with walls, whose impacts every verdict reads, and whether it rests at the end.
+    pub(super) impacts: Mutex<Option<Box<dyn Stepper>>>,
+    pub(super) rests: OnceLock<bool>,
     /// The meter that counts the truth's work.
     pub(super) meter: Arc<Meter>,
 }
@@ -117,6 +120,8 @@ impl BodyTruth {
             failure: None,
             fails_at_start: false,
             series_by_rate: TruthSeriesByRate::default(),
+            impacts: Mutex::default(),
+            rests: OnceLock::new(),
             meter,
         };
         truth.survey().await;

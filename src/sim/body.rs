@@ -2,7 +2,6 @@
 
 use glam::DVec2;
 
-use super::contact;
 use super::impact::Wall;
 use super::parameter::{self, ParameterOf};
 use super::state::Vector;
@@ -100,8 +99,8 @@ pub trait Body: System<Vector: Vector> + Clone + Send + 'static {
         [f64::INFINITY; 2]
     }
 
-    /// Returns the acceleration of one coordinate. A body with coordinates on the heap and walls overrides this function
-    /// so that it does not allocate.
+    /// Returns the acceleration of one coordinate. A body with walls and coordinates on the heap overrides this, so that
+    /// it does not allocate.
     fn acceleration_of(&self, t: f64, state: &StateOf<Self>, coordinate: usize) -> f64 {
         let mut a = state.v.clone();
         self.acceleration(t, &state.q, &state.v, &mut a);
@@ -145,40 +144,20 @@ pub trait Body: System<Vector: Vector> + Clone + Send + 'static {
         0
     }
 
-    /// Returns the first switch that is a wall, if the truth is a reference: its mode is 0 in flight, and it has a
-    /// boundary at the wall.
+    /// Returns the first switch that is a wall, after all others. The reference solution sees to these switches.
     fn first_wall(&self) -> usize {
         usize::MAX
     }
 
-    /// Enters the piece beyond a boundary of a switch on this side. Returns whether the state has jumped.
-    fn cross(
-        &self,
-        piece: &mut Piece,
-        [switch, side]: [usize; 2],
-        t: f64,
-        state: &mut StateOf<Self>,
-    ) -> bool {
-        if let Some(index) = switch.checked_sub(self.first_wall()) {
-            return contact::meet(self, index, &mut piece.modes[switch], t, state);
-        }
-        piece.modes[switch] = self.neighbour(switch, piece.modes[switch], side);
-        false
-    }
-
     /// Returns the smooth piece of the force law at this time and state. A reference solution ends a step at each
     /// boundary between pieces, so that no step contains a corner.
-    fn piece(&self, t: f64, state: &StateOf<Self>) -> Piece {
-        let mut piece = Piece::FIRST;
-        contact::write_rests(self, t, state, &mut piece);
-        piece
+    fn piece(&self, _t: f64, _state: &StateOf<Self>) -> Piece {
+        Piece::FIRST
     }
 
     /// Returns the distances to the boundaries of a piece at this time and state.
-    fn distances_to_ends(&self, piece: &Piece, t: f64, state: &StateOf<Self>) -> Distances {
-        let mut distances = NO_BOUNDARIES;
-        contact::write_heights(self, piece, t, state, &mut distances);
-        distances
+    fn distances_to_ends(&self, _piece: &Piece, _t: f64, _state: &StateOf<Self>) -> Distances {
+        NO_BOUNDARIES
     }
 
     /// Returns the mode of a switch beyond the lower boundary (`side` 0) or the upper boundary (`side` 1) of `mode`.
@@ -197,16 +176,13 @@ pub trait Body: System<Vector: Vector> + Clone + Send + 'static {
     #[inline]
     fn acceleration_on(
         &self,
-        piece: &Piece,
+        _piece: &Piece,
         t: f64,
         q: &Self::Vector,
         v: &Self::Vector,
         a: &mut Self::Vector,
     ) {
         self.acceleration(t, q, v, a);
-        if const { Self::HAS_WALLS } {
-            contact::hold(self, piece, t, a);
-        }
     }
 
     /// Returns the conserved energy in joules; `None` if no energy is conserved.

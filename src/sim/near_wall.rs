@@ -187,8 +187,8 @@ impl NearWall {
     }
 }
 
-/// Returns the pull on the depth, the part of the speed that is stopped, and the yielding of a contact by the SPOOK
-/// solver, whose relaxation is in ticks and whose stiffness in N/m.
+/// Returns how a contact of the SPOOK solver pulls on the depth, which part of the speed it stops, and how far it gives
+/// way. The relaxation is in ticks, the stiffness in N/m.
 fn spook(h: f64, relaxation: f64, stiffness: f64) -> [f64; 3] {
     let whole = 1.0 + 4.0 * relaxation;
     [4.0 / (whole * h), 4.0 * relaxation / whole, 4.0 / (whole * h * h * stiffness)]

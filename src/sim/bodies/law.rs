@@ -6,7 +6,6 @@ use std::sync::Arc;
 use super::claims::{Checked, Claimant, FalseClaims};
 use super::prelude::*;
 use crate::body::{Distances, NO_BOUNDARIES, Piece};
-use crate::contact::{hold, write_heights, write_rests};
 use crate::impact::Wall;
 use crate::law::{At, Equations, Layout, Registers};
 
@@ -210,16 +209,14 @@ impl Body for Law {
         let mut piece = Piece::FIRST;
         let at = self.at(t, &state.q, &state.v);
         self.equations.write_modes(&mut self.registers.borrow_mut(), at, &mut piece.modes);
-        write_rests(self, t, state, &mut piece);
         piece
     }
 
     fn distances_to_ends(&self, piece: &Piece, t: f64, state: &State<Vec<f64>>) -> Distances {
         let mut distances = NO_BOUNDARIES;
         let at = self.at(t, &state.q, &state.v);
-        let registers = &self.registers;
-        self.equations.write_distances(&piece.modes, &mut registers.borrow_mut(), at, &mut distances);
-        write_heights(self, piece, t, state, &mut distances);
+        let registers = &mut self.registers.borrow_mut();
+        self.equations.write_distances(&piece.modes, registers, at, &mut distances);
         distances
     }
 
@@ -234,7 +231,6 @@ impl Body for Law {
     fn acceleration_on(&self, piece: &Piece, t: f64, q: &Vec<f64>, v: &Vec<f64>, a: &mut Vec<f64>) {
         let at = self.at(t, q, v);
         self.equations.accelerate_on(&piece.modes, &mut self.registers.borrow_mut(), at, a);
-        hold(self, piece, t, a);
     }
 
     fn energy(&self, state: &State<Vec<f64>>) -> Option<f64> {
