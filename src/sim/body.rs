@@ -99,8 +99,8 @@ pub trait Body: System<Vector: Vector> + Clone + Send + 'static {
         [f64::INFINITY; 2]
     }
 
-    /// Returns the acceleration of one coordinate. A body with walls and coordinates on the heap overrides this, so that
-    /// it does not allocate.
+    /// Returns the acceleration of one coordinate. A body with walls and coordinates on the heap overrides this, so as
+    /// not to allocate.
     fn acceleration_of(&self, t: f64, state: &StateOf<Self>, coordinate: usize) -> f64 {
         let mut a = state.v.clone();
         self.acceleration(t, &state.q, &state.v, &mut a);

@@ -1,5 +1,5 @@
-//! The walls of a body in its reference solution. Each is a switch of the force law, after the others. In flight it ends
-//! a step where the body meets the wall, and at rest where the wall lets the body go.
+//! The walls of a body in its reference solution. Each is a switch of the force law, after the others. In flight it
+//! ends a step where the body meets the wall, and at rest where the wall lets the body go.
 
 use crate::body::{Body, Distances, Piece};
 use crate::contact::Contact;
