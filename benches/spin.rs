@@ -11,6 +11,7 @@ use std::time::Instant;
 
 use beside_spring::{ROUNDS, SPRING, median, stepper, stretch_ns};
 use regatta::scene::Scene;
+use regatta::sim::Solver;
 use regatta::sim::integrators::{METHODS, method};
 use regatta::studio::Studio;
 use regatta::view::{CpuExecutor, FrameRenderer, png};
@@ -52,10 +53,11 @@ impl Film {
 }
 
 fn main() {
-    let mut spring = stepper("spring", &SPRING, method("rk4").expect("a built-in method"));
+    let mut spring =
+        stepper("spring", &SPRING, Solver::Method(method("rk4").expect("a built-in method")));
     let spring_start = [spring.q().to_vec(), spring.v().to_vec()];
     for card in METHODS.iter().filter(|card| card.is_for_spin()) {
-        let mut coin = stepper("tumble", &COIN, card);
+        let mut coin = stepper("tumble", &COIN, Solver::Method(card));
         let start = [coin.q().to_vec(), coin.v().to_vec()];
         let rounds = (0..ROUNDS).map(|_| {
             let ns = stretch_ns(&mut *coin, &start);

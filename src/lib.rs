@@ -158,10 +158,10 @@ A race of a scene keeps its hashes until its physics changes:
 //!
 //! # Out of scope
 //!
-//! Contacts among bodies and friction, which would hide the integrator behind the solver. One body on one
-//! given floor is in: it has no solver, and the rule of its impacts is one visible line. Generic scalars, which would
-//! bury the formulas (`commands/sweep/round_off.rs` is the exception); constraints, which a closed body with natural
-//! coordinates does not need.
+//! Contacts among bodies, friction, and rotation at a contact, which would hide the integrator behind the solver.
+//! One body on one given floor is in: it has no solver, and the rule of its impacts is one visible line. Generic
+//! scalars, which would bury the formulas (`commands/sweep/round_off.rs` is the exception); constraints, which a
+//! closed body with natural coordinates does not need.
 
 // Only `main` exits, and the printers of the commands alone speak to a person.
 #![warn(clippy::exit, clippy::print_stderr, clippy::print_stdout)]

@@ -4,7 +4,6 @@ use std::hint::black_box;
 use std::time::Instant;
 
 use regatta::sim::bodies::kind;
-use regatta::sim::integrators::Method;
 use regatta::sim::{Solver, Stepper};
 
 /// Ticks in one stretch, their length, and the rounds in which both take their turn.
@@ -14,9 +13,9 @@ pub(crate) const ROUNDS: usize = 101;
 
 pub(crate) const SPRING: [f64; 6] = [1.0, 39.47841760435743, 0.05, 1.0, 0.0, 3.0];
 
-pub(crate) fn stepper(body: &str, values: &[f64], method: &'static Method) -> Box<dyn Stepper> {
+pub(crate) fn stepper(body: &str, values: &[f64], solver: Solver) -> Box<dyn Stepper> {
     let kind = kind(body).expect("a body of the table");
-    black_box((kind.build)(values, Solver::Method(method)))
+    black_box((kind.build)(values, solver))
 }
 
 /// Nanoseconds a step, over a stretch from the start.

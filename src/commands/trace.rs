@@ -84,7 +84,15 @@ pub(super) fn run(args: &TraceArgs) -> Result<(), Error> {
         halts.note(&studio);
     }
     trace.end()?.close()?;
-    print_accuracy(&experiment.scene.bodies, &at_start, &reached, studio.race().truth());
+    let truth = studio.race().truth();
+    print_accuracy(&experiment.scene.bodies, &at_start, &reached, truth);
+    for (SceneBody { name, kind, .. }, truth) in experiment.scene.bodies.iter().zip(truth.bodies())
+    {
+        let first = truth.stepper.true_bounce(1);
+        if kind.has_walls && first.is_none_or(|[at_s, _]| at_s > studio.race().t()) {
+            print_status(&format!("lane 0, {name}: it meets no wall in {seconds} s"));
+        }
+    }
     halts.lines.iter().for_each(|line| print_status(line));
     Ok(())
 }

@@ -3,7 +3,8 @@
 use glam::DVec2;
 
 use super::{BodyPicture, Framing, Handle, Mark, Outline, Pull};
-use crate::sim::bodies::Ball;
+use crate::sim::Wall;
+use crate::sim::bodies::{Ball, Body};
 use crate::sim::number::round;
 
 /// Radius of the ball, half the length of the floor, and the margin, relative to the range of the motion.
@@ -51,11 +52,10 @@ impl BodyPicture for Ball {
         let half = HALF_FLOOR * range(self);
         // The coordinate is drawn at the centre, so that the walls are a radius beyond it.
         let radius = radius(self);
-        let mut walls = vec![(-radius, 1.0)];
-        walls.extend((self.ceiling > 0.0).then_some((self.ceiling + radius, -1.0)));
-        let centre = q[0];
+        let (centre, t) = (q[0], outline.t);
         outline.marks.push(Mark::Disc { centre: at(self, centre, 0.0), radius });
-        for (wall, side) in walls {
+        for Wall { at: place, side, .. } in (0..).map_while(|index| self.wall(index, t)) {
+            let wall = place - side * radius;
             let [from, to] = [-half, half].map(|aside| at(self, wall, aside));
             outline.marks.push(Mark::Wall { from, to });
             hatch(self, centre, wall, side, outline);
@@ -69,7 +69,7 @@ impl BodyPicture for Ball {
     }
 
     fn describe_motion(&self, q: &[f64], v: &[f64]) -> Option<String> {
-        let falls = self.gravity > 0.0 && self.drag == 0.0;
+        let falls = self.gravity > 0.0 && self.drag == 0.0 && self.floor_amplitude == 0.0;
         let apex = q[0].max(0.0) + v[0] * v[0] / (2.0 * self.gravity);
         let part = 100.0 * self.restitution * self.restitution;
         falls.then(|| format!("bounces from {} m to {} %", round(apex, 3), round(part, 3)))

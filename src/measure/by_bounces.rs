@@ -77,10 +77,11 @@ pub(super) async fn follow_bounces(
     (run.seconds, run.evaluations) = (seconds, evaluations);
     run.is_too_much = stop == StopReason::TooMuchWork;
     run.failure = RunFailure::of(stop, followed.t());
-    let mut exact = truth.start(Solver::Truth);
     let found = &mut run.finding;
     let has_own_time = spec.impact.finds_the_time();
-    found.compare(&*exact, &seen, h, if has_own_time { 0.0 } else { h });
+    let mut impacts = truth.impacts.lock().expect("no thread panics with it");
+    let exact = impacts.get_or_insert_with(|| truth.start(Solver::Truth));
+    found.compare(&**exact, &seen, h, if has_own_time { 0.0 } else { h });
     found.is_luck &= !has_own_time;
     found.sinks_at_s = below_since.filter(|since| seconds - since >= sunk_s);
     let is_cut = !truth.inputs.is_empty();
@@ -88,8 +89,11 @@ pub(super) async fn follow_bounces(
         let exact = &mut *truth.start(Solver::Truth);
         found.gap = gap(exact, before.coordinate, &heights, tick_hz);
     }
-    let is_known = exact.advance(0.0, until_s - rest_s, 1).is_ok();
-    let rests = is_known && exact.v()[before.coordinate] == 0.0;
+    let rests = *truth.rests.get_or_init(|| {
+        let mut exact = truth.start(Solver::Truth);
+        let is_known = exact.advance(0.0, until_s - rest_s, 1).is_ok();
+        is_known && exact.v()[before.coordinate] == 0.0
+    });
     let is_up = found.sinks_at_s.is_none() && highest_last > LIES * highest.max(1.0);
     found.never_rests = (rests && is_up).then_some(highest_last);
     run

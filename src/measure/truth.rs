@@ -4,7 +4,7 @@
 //! method's own motion must not set the scale of its error. The truth itself may fail or be imprecise; then no lane is
 //! compared with it.
 
-use std::sync::Arc;
+use std::sync::{Arc, Mutex, OnceLock};
 
 use super::slices::Meter;
 use super::survey::{Ranges, TruthNode};
@@ -58,6 +58,7 @@ pub(super) struct BodyTruth {
     /// The script's later actions on the body within the horizon, in order.
     pub(super) inputs: Vec<Scripted>,
     pub(super) horizon_s: f64,
+    truth: Truth,
     /// Amplitude of each component of the state, with the coordinates first.
     pub(super) amplitudes: Vec<f64>,
     /// Centre of each coordinate's swing, which is the middle of its range, or the place of rest if the body loses
@@ -82,6 +83,9 @@ pub(super) struct BodyTruth {
     /// Whether the truth fails before anything has moved. Another walk would cost the same again and get no further.
     fails_at_start: bool,
     series_by_rate: TruthSeriesByRate,
+    /// The exact motion of a body with walls, whose impacts every verdict reads, and whether it rests at the end.
+    pub(super) impacts: Mutex<Option<Box<dyn Stepper>>>,
+    pub(super) rests: OnceLock<bool>,
     /// The meter that counts the truth's work.
     pub(super) meter: Arc<Meter>,
 }
@@ -104,6 +108,7 @@ impl BodyTruth {
             at_start: at_start.into_iter().map(|input| input.action.clone()).collect(),
             inputs: later.cloned().collect(),
             horizon_s,
+            truth: body.kind.truth_of(&body.values),
             amplitudes: Vec::new(),
             centres: Vec::new(),
             reach: Reach::Each(Vec::new()),
@@ -115,6 +120,8 @@ impl BodyTruth {
             failure: None,
             fails_at_start: false,
             series_by_rate: TruthSeriesByRate::default(),
+            impacts: Mutex::default(),
+            rests: OnceLock::new(),
             meter,
         };
         truth.survey().await;
@@ -170,7 +177,9 @@ impl BodyTruth {
         let reads_time =
             matches!(&self.body.kind.origin, Origin::Law(equations) if equations.reads_time());
         let pursuit = self.start(Solver::Truth).pursuit(0.0);
-        reads_time || pursuit.is_some_and(|pursuit| !pursuit.is_still)
+        // Of a ball whose floor moves.
+        let has_lost_form = self.body.kind.truth != self.truth;
+        reads_time || has_lost_form || pursuit.is_some_and(|pursuit| !pursuit.is_still)
     }
 
     /// Whether the body is judged by its bounces, up to a first input.
@@ -190,7 +199,7 @@ impl BodyTruth {
     /// Returns the work of one moment of the true motion, in evaluations of one coordinate.
     pub(super) fn work_of_moment(&self) -> u64 {
         let n = self.coordinates().len() as u64;
-        match self.body.kind.truth {
+        match self.truth {
             Truth::Exact => WORK_OF_MOMENT + n * n / PRODUCTS_PER_EVALUATION,
             Truth::Reference => WORK_OF_REFERENCE_MOMENT * n,
         }
@@ -199,7 +208,7 @@ impl BodyTruth {
     async fn survey(&mut self) {
         let mut body = self.start(Solver::Truth);
         let n = body.q().len();
-        let max_moments = match self.body.kind.truth {
+        let max_moments = match self.truth {
             Truth::Exact => MAX_MOMENTS,
             Truth::Reference => MAX_REFERENCE_MOMENTS,
         };
@@ -214,7 +223,7 @@ impl BodyTruth {
         let conserves = body.energy().is_some() && self.inputs.is_empty();
         let mut has_moved = false;
         // A reference is expensive, so its moments are kept.
-        let mut seen = (self.body.kind.truth == Truth::Reference).then(Vec::new);
+        let mut seen = (self.truth == Truth::Reference).then(Vec::new);
         let see = |from: &TruthNode, to: &TruthNode| {
             has_moved = true;
             if let Some(seen) = &mut seen {
@@ -244,7 +253,7 @@ impl BodyTruth {
         let mut first_swings_s = self.first_swings_of_modes_s();
         if !self.is_oscillator() && !returns && !self.fails_at_start {
             // Other motions are followed beyond the horizon, as far as the truth reaches.
-            let is_close = self.body.kind.truth == Truth::Reference && self.failure.is_none();
+            let is_close = self.truth == Truth::Reference && self.failure.is_none();
             let close = match is_close {
                 true => self.long_run(close_solver(), most).await.ok(),
                 false => None,

@@ -377,6 +377,6 @@ pub static SCENES: &[BuiltIn] = scenes! {
     StartHere: "harbour" "spring" "ship" "damped" "pendulum" "two-springs";
     Chapter: "stiff" "surge" "chain" "helm";
     Engines: "alike" "engines" "held-force" "stiff-in-engines";
-    More: "liouville" "kicked-rotor" "orbit" "follow" "lerp" "duffing" "quarter-car" "bouncing-bungee" "lift" "jump" "ball" "perpetual" "drop" "pong" "landing" "coin" "t-handle" "phone" "long-box" "gyro" "rope"
+    More: "liouville" "kicked-rotor" "orbit" "follow" "lerp" "duffing" "quarter-car" "bouncing-bungee" "lift" "jump" "ball" "perpetual" "drop" "pong" "landing" "paddle" "coin" "t-handle" "phone" "long-box" "gyro" "rope"
         "cloth" "bridge";
 };

@@ -67,9 +67,14 @@ pub trait Body: System<Vector: Vector> + Clone + Send + 'static {
         unreachable!("a body with `HAS_EXACT` has a closed form");
     }
 
+    /// Whether the body has a closed form with its parameters. A kind with [`Body::HAS_EXACT`] may lose it.
+    fn has_exact(&self) -> bool {
+        Self::HAS_EXACT
+    }
+
     /// Returns the state that [`Body::exact_into`] computes from time 0; `None` if the body has no closed form.
     fn exact(&self, dt: f64, from: &StateOf<Self>) -> Option<StateOf<Self>> {
-        Self::HAS_EXACT.then(|| {
+        self.has_exact().then(|| {
             let mut to = from.clone();
             self.exact_into(0.0, dt, from, &mut to);
             to
@@ -92,6 +97,14 @@ pub trait Body: System<Vector: Vector> + Clone + Send + 'static {
         _to: &StateOf<Self>,
     ) -> [f64; 2] {
         [f64::INFINITY; 2]
+    }
+
+    /// Returns the acceleration of one coordinate. A body with walls and coordinates on the heap overrides this, so as
+    /// not to allocate.
+    fn acceleration_of(&self, t: f64, state: &StateOf<Self>, coordinate: usize) -> f64 {
+        let mut a = state.v.clone();
+        self.acceleration(t, &state.q, &state.v, &mut a);
+        a.components()[coordinate]
     }
 
     /// Returns the wall with this index at time `t` (s), first the lower one; `None` beyond the last. Between impacts
@@ -131,22 +144,9 @@ pub trait Body: System<Vector: Vector> + Clone + Send + 'static {
         0
     }
 
-    /// Returns the first switch that is a wall, if the truth is a reference: its mode is 0 in flight, and it has a
-    /// boundary at the wall.
+    /// Returns the first switch that is a wall, after all others. The reference solution sees to these switches.
     fn first_wall(&self) -> usize {
         usize::MAX
-    }
-
-    /// Enters the piece beyond a boundary of a switch on this side. Returns whether the state has jumped.
-    fn cross(
-        &self,
-        piece: &mut Piece,
-        [switch, side]: [usize; 2],
-        _t: f64,
-        _state: &mut StateOf<Self>,
-    ) -> bool {
-        piece.modes[switch] = self.neighbour(switch, piece.modes[switch], side);
-        false
     }
 
     /// Returns the smooth piece of the force law at this time and state. A reference solution ends a step at each

@@ -49,7 +49,7 @@ impl<B: Body> BodyAtState<B> {
                 return Box::new(BodyStepper { placed: self, propagator });
             }
             Box::new(BodyStepper { placed: self, propagator: method })
-        } else if B::HAS_EXACT {
+        } else if self.body.system.has_exact() {
             let propagator = ExactFlow::new(&self.state, t);
             Box::new(BodyStepper { placed: self, propagator })
         } else {

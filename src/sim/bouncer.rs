@@ -6,13 +6,14 @@
 //! time rests, or one step would have infinitely many impacts.
 
 use super::body::Body;
-use super::impact::{Bounces, Locating, Rule, Turn, Wall, comes_to_rest};
+use super::contact::Contact;
+use super::impact::{Bounces, Locating, Rule, Turn, comes_to_rest};
 use super::integrators::{EngineBounce, Method, Problem, StepFailure, Stepped};
 use super::near_wall::NearWall;
 use super::propagator::Propagator;
 use super::state::{State, Vector};
 use super::stepper::{Change, Solver};
-use super::system::{Counted, StateOf, System};
+use super::system::{Counted, StateOf};
 
 /// The largest number of impacts within a step. A body that falls back on its wall so often in a step rests.
 const MAX_IMPACTS: u32 = 1000;
@@ -39,68 +40,16 @@ pub(super) struct Bouncer<P, V> {
     a: V,
 }
 
-/// A wall met by a body, with its index.
-#[derive(Clone, Copy)]
-struct Contact {
-    index: usize,
-    wall: Wall,
-}
-
-impl Contact {
-    /// Returns the wall beyond which a body is at time `t` (s).
-    fn beyond<B: Body>(body: &B, t: f64, y: &StateOf<B>) -> Option<Self> {
-        Self::all(body, t).find(|contact| contact.height(y) < 0.0)
-    }
-
-    fn all<B: Body>(body: &B, t: f64) -> impl Iterator<Item = Self> {
-        (0..).map_while(move |index| Some(Self { index, wall: body.wall(index, t)? }))
-    }
-
-    /// Returns the same wall at another time.
-    fn at<B: Body>(self, body: &B, t: f64) -> Self {
-        body.wall(self.index, t).map_or(self, |wall| Self { wall, ..self })
-    }
-
-    /// Returns the distance from the wall, negative beyond it.
-    fn height<V: Vector>(self, y: &State<V>) -> f64 {
-        self.wall.height(y.q.components())
-    }
-
-    /// Returns the velocity away from the wall.
-    fn speed<V: Vector>(self, y: &State<V>) -> f64 {
-        self.wall.speed(y.v.components())
-    }
-
-    fn set_height<V: Vector>(self, height: f64, y: &mut State<V>) {
-        y.q.components_mut()[self.wall.coordinate] = self.wall.at + self.wall.side * height;
-    }
-
-    fn set_speed<V: Vector>(self, speed: f64, y: &mut State<V>) {
-        y.v.components_mut()[self.wall.coordinate] = self.wall.velocity + self.wall.side * speed;
-    }
-
-    /// Turns a body at time `t` (s). Returns the velocities away from the wall before and after.
-    fn turn<B: Body>(self, body: &B, t: f64, y: &mut StateOf<B>) -> [f64; 2] {
-        let speed = self.speed(y);
-        if !body.turn(self.index, t, y) {
-            self.set_speed(-self.wall.restitution * speed, y);
-        }
-        [speed, self.speed(y)]
-    }
-
-    /// Returns the acceleration away from the wall, for which `a` is room.
-    fn push<B: Body>(self, body: &Counted<B>, t: f64, y: &StateOf<B>, a: &mut B::Vector) -> f64 {
-        body.acceleration(t, &y.q, &y.v, a);
-        self.wall.side * (a.components()[self.wall.coordinate] - self.wall.acceleration)
-    }
-}
-
 impl<P: Clone, V: Vector> Bouncer<P, V> {
     /// Creates a body's steps by `inner`, which is the method of `solver`.
     pub(super) fn new(inner: P, solver: Solver, bounces: Bounces, like: &State<V>) -> Self {
         let probe = inner.clone();
         let (from, trial, a) = (like.clone(), like.clone(), like.v.clone());
-        let (rule, engine) = (solver.impact().rule, solver.method().and_then(Method::bounce));
+        let rule = solver.impact().rule;
+        let engine = match rule {
+            Rule::EngineP2 => Some(EngineBounce::P2),
+            _ => solver.method().and_then(Method::bounce),
+        };
         let kept = Default::default();
         Self { inner, probe, rule, engine, kept, bounces, last_h: 0.0, from, trial, a }
     }
@@ -200,7 +149,8 @@ impl<P: Clone, V: Vector> Bouncer<P, V> {
             Rule::Penalty if contact.height(&self.from) >= 0.0 => {
                 self.bounces.land(t + h, [contact.speed(y), f64::NAN]);
             }
-            Rule::BeforeTick | Rule::Penalty | Rule::Engine | Rule::OwnLines => {}
+            Rule::BeforeTick | Rule::Penalty => {}
+            Rule::Engine | Rule::EngineP2 | Rule::OwnLines => {}
         }
         Ok(())
     }

@@ -127,6 +127,8 @@ pub(super) enum Rule {
     Penalty,
     /// The whole tick is the engine's.
     Engine,
+    /// The whole tick is that of p2-es, which steps as cannon-es does.
+    EngineP2,
     /// The lines of the method turn the body.
     OwnLines,
 }
@@ -200,7 +202,10 @@ pub static IMPACTS: &[Impact] = impacts! {
     "none" None, Rule::OwnLines,
         "the lines of the method turn the ball themselves; for methods of your own with such a line, and no others";
     "engine" None, Rule::Engine,
-        "the engine's own rule, with its slop and threshold; for lanes of Chipmunk, Jolt, Box2D, Rapier, pybullet and MuJoCo";
+        "the engine's own rule, with its slop and threshold; for lanes of Chipmunk, Jolt, Box2D, Rapier, pybullet, MuJoCo and \
+         cannon-es";
+    "engine-p2" None, Rule::EngineP2,
+        "p2-es's own rule, for the lane of cannon-es, which steps as p2-es does";
 };
 
 /// Returns the rule with this id.

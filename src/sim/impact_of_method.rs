@@ -4,7 +4,7 @@
 //! person's lines. Any other method takes any of the other rules, and the order of both is the smaller one.
 
 use super::impact::{IMPACTS, Impact, Locating, Rule, Turn};
-use super::integrators::Method;
+use super::integrators::{EngineBounce, Method};
 
 impl Impact {
     /// Returns the rule that a lane of this method has unless it says otherwise.
@@ -17,6 +17,7 @@ impl Impact {
     pub fn fits(&self, method: &Method) -> bool {
         match self.rule {
             Rule::Engine => method.bounce().is_some(),
+            Rule::EngineP2 => method.bounce() == Some(EngineBounce::Cannon),
             Rule::OwnLines => method.has_own_floor,
             _ => method.bounce().is_none() && !method.has_own_floor,
         }
@@ -26,7 +27,7 @@ impl Impact {
     pub fn refusal(&self, method: &Method) -> Option<String> {
         let why = match self.rule {
             _ if self.fits(method) => return None,
-            Rule::Engine | Rule::OwnLines => "has none of its own that is known",
+            Rule::Engine | Rule::EngineP2 | Rule::OwnLines => "has none of its own that is known",
             _ => "has one of its own, and no other",
         };
         Some(format!("the rule {self:?} is not for {}, which {why}", method.id))
@@ -39,9 +40,8 @@ impl Impact {
             Rule::Within(Locating::Method) => u32::MAX,
             Rule::Within(Locating::Cubic) => 4,
             Rule::Within(Locating::Chord) => 2,
-            Rule::After(Turn::VelocityBlind) | Rule::Penalty | Rule::Engine | Rule::OwnLines => {
-                return None;
-            }
+            Rule::After(Turn::VelocityBlind) | Rule::Penalty => return None,
+            Rule::Engine | Rule::EngineP2 | Rule::OwnLines => return None,
             Rule::Within(_) | Rule::Swept | Rule::After(_) | Rule::BeforeTick => 1,
         };
         Some(method.order_with_drag.min(most))

@@ -21,6 +21,7 @@ mod bouncer;
 mod clock;
 #[cfg(feature = "lab")]
 pub mod conformance;
+mod contact;
 #[cfg(feature = "lab")]
 mod curve;
 mod double_double;

@@ -37,6 +37,8 @@ impl NearWall {
             EngineBounce::Jolt => Self::jolt,
             EngineBounce::Pybullet => Self::pybullet,
             EngineBounce::Mujoco => Self::mujoco,
+            EngineBounce::Cannon => Self::cannon,
+            EngineBounce::P2 => Self::p2,
         };
         (0..n).for_each(|_| step(self, part));
     }
@@ -158,4 +160,36 @@ impl NearWall {
         self.speed += h * if self.touches { pushed } else { self.push };
         self.height += h * self.speed;
     }
+    fn cannon(&mut self, h: f64) {
+        let [pull, kept, give] = spook(h, 3.0, 1e7);
+        let rebound = kept * (1.0 + self.restitution) * self.speed;
+        self.overlap(h, -pull * self.height - rebound, give);
+    }
+
+    fn p2(&mut self, h: f64) {
+        const SKIN: f64 = 0.005;
+        let [pull, kept, give] = spook(h, 4.0, 1e6);
+        let wanted = match self.touches {
+            true => -pull * (self.height + SKIN) - kept * self.speed,
+            false => -(1.0 + self.restitution) * self.speed,
+        };
+        self.overlap(h, wanted, give);
+    }
+
+    /// Makes a tick in which a wall that overlaps the ball changes its speed by `wanted`, less what it gives way.
+    fn overlap(&mut self, h: f64, wanted: f64, give: f64) {
+        self.touches = self.height < 0.0;
+        if self.touches {
+            self.speed += ((wanted - h * self.push) / (1.0 + give)).max(0.0);
+        }
+        self.speed += h * self.push;
+        self.height += h * self.speed;
+    }
+}
+
+/// Returns how a contact of the SPOOK solver pulls on the depth, which part of the speed it stops, and how far it gives
+/// way. The relaxation is in ticks, the stiffness in N/m.
+fn spook(h: f64, relaxation: f64, stiffness: f64) -> [f64; 3] {
+    let whole = 1.0 + 4.0 * relaxation;
+    [4.0 / (whole * h), 4.0 * relaxation / whole, 4.0 / (whole * h * h * stiffness)]
 }

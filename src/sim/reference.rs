@@ -20,6 +20,7 @@ use trajectory::{StepControl, Trajectory, TrajectoryEnd};
 mod extrapolation;
 mod flights;
 mod trajectory;
+mod walls;
 
 /// The accuracy at which a reference solution aims. It is the error of the solution over the duration of a built-in
 /// scene, relative to the largest coordinate and to the largest velocity. `tests/library/bodies/reference.rs` compares

@@ -67,7 +67,7 @@ fn resumed_notice(scene: &Scene, resumed: &[Resumed]) -> Vec<String> {
         let body = &scene.bodies[halt.body];
         let fate = if halt.is_blow_up() { "had blown up" } else { "had halted" };
         let origin = match from {
-            ResumedFrom::Truth => format!("the {} solution", body.kind.truth.id()),
+            ResumedFrom::Truth => format!("the {} solution", body.kind.truth_of(&body.values).id()),
             ResumedFrom::LastGood => "its last good state".into(),
         };
         format!("{} {fate}: resumed from {origin}", body.name)

@@ -53,6 +53,7 @@ perpetual\t''
 drop\t''
 pong\t''
 landing\t''
+paddle\t''
 coin\t''
 t-handle\t''
 phone\t''
@@ -157,7 +158,8 @@ swept\t''
 swept-step\t''
 penalty\t''
 none\t''
-engine\t''"
+engine\t''
+engine-p2\t''"
 complete -c regatta -n "__fish_regatta_needs_command" -l tick-hz -d 'Ticks per second [default: the scene\'s]' -r
 complete -c regatta -n "__fish_regatta_needs_command" -l step -d 'The length of a tick, in place of --tick-hz' -r
 complete -c regatta -n "__fish_regatta_needs_command" -l loop -d 'Open the loop lab on a trace [default: edge]' -r
@@ -223,6 +225,7 @@ perpetual\t''
 drop\t''
 pong\t''
 landing\t''
+paddle\t''
 coin\t''
 t-handle\t''
 phone\t''
@@ -327,7 +330,8 @@ swept\t''
 swept-step\t''
 penalty\t''
 none\t''
-engine\t''"
+engine\t''
+engine-p2\t''"
 complete -c regatta -n "__fish_regatta_using_subcommand play" -l tick-hz -d 'Ticks per second [default: the scene\'s]' -r
 complete -c regatta -n "__fish_regatta_using_subcommand play" -l step -d 'The length of a tick, in place of --tick-hz' -r
 complete -c regatta -n "__fish_regatta_using_subcommand play" -l loop -d 'Open the loop lab on a trace [default: edge]' -r
@@ -371,6 +375,7 @@ perpetual\t''
 drop\t''
 pong\t''
 landing\t''
+paddle\t''
 coin\t''
 t-handle\t''
 phone\t''
@@ -475,7 +480,8 @@ swept\t''
 swept-step\t''
 penalty\t''
 none\t''
-engine\t''"
+engine\t''
+engine-p2\t''"
 complete -c regatta -n "__fish_regatta_using_subcommand capture" -l tick-hz -d 'Ticks per second [default: the scene\'s]' -r
 complete -c regatta -n "__fish_regatta_using_subcommand capture" -l step -d 'The length of a tick, in place of --tick-hz' -r
 complete -c regatta -n "__fish_regatta_using_subcommand capture" -l loop -d 'Show the loop lab over a trace [default: edge]' -r
@@ -543,6 +549,7 @@ perpetual\t''
 drop\t''
 pong\t''
 landing\t''
+paddle\t''
 coin\t''
 t-handle\t''
 phone\t''
@@ -647,7 +654,8 @@ swept\t''
 swept-step\t''
 penalty\t''
 none\t''
-engine\t''"
+engine\t''
+engine-p2\t''"
 complete -c regatta -n "__fish_regatta_using_subcommand report" -l tick-hz -d 'Ticks per second [default: the scene\'s]' -r
 complete -c regatta -n "__fish_regatta_using_subcommand report" -l step -d 'The length of a tick, in place of --tick-hz' -r
 complete -c regatta -n "__fish_regatta_using_subcommand report" -l seconds -d 'Simulated seconds to run [default: the scene\'s]' -r
@@ -693,6 +701,7 @@ perpetual\t''
 drop\t''
 pong\t''
 landing\t''
+paddle\t''
 coin\t''
 t-handle\t''
 phone\t''
@@ -797,7 +806,8 @@ swept\t''
 swept-step\t''
 penalty\t''
 none\t''
-engine\t''"
+engine\t''
+engine-p2\t''"
 complete -c regatta -n "__fish_regatta_using_subcommand trace" -l tick-hz -d 'Ticks per second [default: the scene\'s]' -r
 complete -c regatta -n "__fish_regatta_using_subcommand trace" -l step -d 'The length of a tick, in place of --tick-hz' -r
 complete -c regatta -n "__fish_regatta_using_subcommand trace" -l seconds -d 'Simulated seconds [default: the scene\'s]' -r
@@ -836,6 +846,7 @@ perpetual\t''
 drop\t''
 pong\t''
 landing\t''
+paddle\t''
 coin\t''
 t-handle\t''
 phone\t''
@@ -940,7 +951,8 @@ swept\t''
 swept-step\t''
 penalty\t''
 none\t''
-engine\t''"
+engine\t''
+engine-p2\t''"
 complete -c regatta -n "__fish_regatta_using_subcommand advise" -l tick-hz -d 'Ticks per second [default: the scene\'s]' -r
 complete -c regatta -n "__fish_regatta_using_subcommand advise" -l step -d 'The length of a tick, in place of --tick-hz' -r
 complete -c regatta -n "__fish_regatta_using_subcommand advise" -l family -d 'Judge only the methods of this family' -r -f -a "explicit\t''
@@ -992,6 +1004,7 @@ perpetual\t''
 drop\t''
 pong\t''
 landing\t''
+paddle\t''
 coin\t''
 t-handle\t''
 phone\t''
@@ -1096,7 +1109,8 @@ swept\t''
 swept-step\t''
 penalty\t''
 none\t''
-engine\t''"
+engine\t''
+engine-p2\t''"
 complete -c regatta -n "__fish_regatta_using_subcommand sweep" -l tick-hz -d 'Tick rates in Hz, separated by commas' -r
 complete -c regatta -n "__fish_regatta_using_subcommand sweep" -l step -d 'Lengths of a tick in seconds, in place of --tick-hz' -r
 complete -c regatta -n "__fish_regatta_using_subcommand sweep" -l vary -d 'Values of a parameter: a row for each' -r
@@ -1138,6 +1152,7 @@ perpetual\t''
 drop\t''
 pong\t''
 landing\t''
+paddle\t''
 coin\t''
 t-handle\t''
 phone\t''
@@ -1242,7 +1257,8 @@ swept\t''
 swept-step\t''
 penalty\t''
 none\t''
-engine\t''"
+engine\t''
+engine-p2\t''"
 complete -c regatta -n "__fish_regatta_using_subcommand cloud" -l tick-hz -d 'Ticks per second [default: the scene\'s]' -r
 complete -c regatta -n "__fish_regatta_using_subcommand cloud" -l step -d 'The length of a tick, in place of --tick-hz' -r
 complete -c regatta -n "__fish_regatta_using_subcommand cloud" -l points -d 'Starts, 1 to 1000000000 [default: 100000]' -r
@@ -1408,6 +1424,7 @@ perpetual\t''
 drop\t''
 pong\t''
 landing\t''
+paddle\t''
 coin\t''
 t-handle\t''
 phone\t''
@@ -1688,6 +1705,7 @@ perpetual\t''
 drop\t''
 pong\t''
 landing\t''
+paddle\t''
 coin\t''
 t-handle\t''
 phone\t''
@@ -1792,7 +1810,8 @@ swept\t''
 swept-step\t''
 penalty\t''
 none\t''
-engine\t''"
+engine\t''
+engine-p2\t''"
 complete -c regatta -n "__fish_regatta_using_subcommand fixture" -l tick-hz -d 'Ticks per second [default: the scene\'s]' -r
 complete -c regatta -n "__fish_regatta_using_subcommand fixture" -l step -d 'The length of a tick, in place of --tick-hz' -r
 complete -c regatta -n "__fish_regatta_using_subcommand fixture" -l seconds -d 'Simulated seconds [default: the scene\'s]' -r

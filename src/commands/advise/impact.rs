@@ -83,7 +83,8 @@ pub(super) fn exact_code(scene: &Scene, language: Language) -> Option<String> {
     let [body] = &scene.bodies[..] else { return None };
     let of = |key: &str| Some(body.values[body.kind.parameter(key)?.0]);
     let [e, g] = [of("restitution")?, of("gravity_m_per_s2")?];
-    let is_free = of("drag_per_s")? == 0.0 && of("ceiling_m")? == 0.0;
+    let is_free =
+        ["drag_per_s", "ceiling_m", "floor_amplitude_m"].iter().all(|key| of(key) == Some(0.0));
     if !is_free {
         return None;
     }

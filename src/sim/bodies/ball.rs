@@ -1,10 +1,11 @@
 //! A ball above a floor, or between two walls: `y″ = -g - c y′`, and `y′ → -e y′` at a wall.
 //!
 //! The true impacts under gravity are a geometric series, so that any of them is known without those before it. With
-//! drag each flight is solved in turn.
+//! drag each flight is solved in turn. On a floor that moves the truth is a reference solution.
 
 use std::array::from_ref;
 use std::cell::RefCell;
+use std::f64::consts::TAU;
 
 use super::prelude::*;
 use crate::impact::Wall;
@@ -23,7 +24,10 @@ type Of = ParameterOf<Ball>;
 
 const CEILING: &str = "ceiling_m";
 
-const PARAMETERS: [Of; 7] = [
+/// The key of the amplitude of a floor that moves.
+pub(super) const FLOOR_AMPLITUDE: &str = "floor_amplitude_m";
+
+const PARAMETERS: [Of; 9] = [
     Of::number("height_m", Range::NON_NEGATIVE, |ball| &mut ball.height)
         .at_start()
         .named("height at start")
@@ -43,6 +47,16 @@ const PARAMETERS: [Of; 7] = [
         .or(0.0)
         .symbol("c")
         .about("the drag: deceleration per speed"),
+    Of::number(FLOOR_AMPLITUDE, Range::NON_NEGATIVE, |ball| &mut ball.floor_amplitude)
+        .or(0.0)
+        .symbol("a")
+        .at_start()
+        .about("the amplitude of a floor at a sin(2π f t); 0 is a floor at rest"),
+    Of::number("floor_frequency_hz", Range::NON_NEGATIVE, |ball| &mut ball.floor_frequency)
+        .or(0.0)
+        .symbol("f")
+        .at_start()
+        .about("the frequency of the floor"),
     Of::number(CEILING, Range::NON_NEGATIVE, |ball| &mut ball.ceiling)
         .or(0.0)
         .at_start()
@@ -89,6 +103,10 @@ pub struct Ball {
     pub gravity: f64,
     /// c, the drag, per second; 0 with a ceiling.
     pub drag: f64,
+    /// a, the amplitude of a floor at a sin(2π f t), in metres; 0 for a floor at rest.
+    pub floor_amplitude: f64,
+    /// f, the frequency of the floor, in hertz.
+    pub floor_frequency: f64,
     /// Height of a second wall, in metres; 0 if there is none.
     pub ceiling: f64,
     /// K, the change of velocity by one kick, in metres per second.
@@ -153,10 +171,31 @@ impl Ball {
                 "write a number greater than 0, or a second wall such as `ceiling_m = 3.0`",
             );
         }
+        if self.has_moving_floor() && self.floor_frequency == 0.0 {
+            return fault(
+                FLOOR_AMPLITUDE,
+                "the floor moves at no frequency",
+                "write `floor_frequency_hz = 9.5`, or remove it",
+            );
+        }
         if has_ceiling && self.height > self.ceiling {
             return fault("height_m", "the ball starts beyond `ceiling_m`", "start it below");
         }
         Ok(())
+    }
+
+    fn has_moving_floor(&self) -> bool {
+        self.floor_amplitude > 0.0
+    }
+
+    /// Returns the place, the velocity and the acceleration of the floor at time `t` (s).
+    fn floor(&self, t: f64) -> [f64; 3] {
+        if !self.has_moving_floor() {
+            return [0.0; 3];
+        }
+        let (size, per_s) = (self.floor_amplitude, TAU * self.floor_frequency);
+        let (sin, cos) = libm::sincos(per_s * t);
+        [size * sin, size * per_s * cos, -size * per_s * per_s * sin]
     }
 
     /// Returns the state after a flight of `dt` (s) through the air.
@@ -340,10 +379,10 @@ impl System for Ball {
     type Vector = f64;
 
     #[inline]
-    fn acceleration(&self, _t: f64, y: &f64, v: &f64, a: &mut f64) {
+    fn acceleration(&self, t: f64, y: &f64, v: &f64, a: &mut f64) {
         *a = -self.gravity - self.drag * v;
         if self.is_soft {
-            for wall in (0..).map_while(|index| self.wall(index, 0.0)) {
+            for wall in (0..).map_while(|index| self.wall(index, t)) {
                 *a += wall.soft_push(from_ref(y), from_ref(v));
             }
         }
@@ -361,14 +400,30 @@ impl Body for Ball {
         State { q: self.height, v: self.speed }
     }
 
-    fn wall(&self, index: usize, _t: f64) -> Option<Wall> {
-        let (side, at) = match index {
-            0 => (1.0, 0.0),
-            1 if self.ceiling > 0.0 => (-1.0, self.ceiling),
+    fn has_exact(&self) -> bool {
+        !self.has_moving_floor()
+    }
+
+    fn wall(&self, index: usize, t: f64) -> Option<Wall> {
+        let (side, [at, velocity, acceleration]) = match index {
+            0 => (1.0, self.floor(t)),
+            1 if self.ceiling > 0.0 => (-1.0, [self.ceiling, 0.0, 0.0]),
             _ => return None,
         };
         let restitution = self.restitution;
-        Some(Wall { coordinate: 0, side, at, velocity: 0.0, acceleration: 0.0, restitution })
+        Some(Wall { coordinate: 0, side, at, velocity, acceleration, restitution })
+    }
+
+    fn first_wall(&self) -> usize {
+        0
+    }
+
+    fn switches(&self) -> usize {
+        1 + usize::from(self.ceiling > 0.0)
+    }
+
+    fn has_jumps(&self) -> bool {
+        true
     }
 
     fn soften(&mut self, is_soft: bool) {
@@ -438,12 +493,12 @@ impl Body for Ball {
     }
 
     fn energy(&self, state: &State<f64>) -> Option<f64> {
-        let is_kept = self.restitution == 1.0 && self.drag == 0.0;
+        let is_kept = self.restitution == 1.0 && self.drag == 0.0 && self.has_exact();
         is_kept.then(|| state.v * state.v / 2.0 + self.gravity * state.q)
     }
 
     fn mechanical_energy(&self, state: &State<f64>) -> Option<[f64; 2]> {
-        Some([state.v * state.v / 2.0, self.gravity * state.q])
+        self.has_exact().then(|| [state.v * state.v / 2.0, self.gravity * state.q])
     }
 
     fn input(&mut self, input: Input, state: &mut State<f64>) -> bool {

@@ -190,6 +190,13 @@ impl Kind {
         Self { batch, ..Self::of(blank) }
     }
 
+    /// Returns the kind of truth of a body with these parameter values. A floor that moves takes a ball's closed form.
+    pub fn truth_of(&self, values: &[f64]) -> Truth {
+        let is_exact =
+            self.truth == Truth::Exact && (self.build)(values, Solver::Truth).is_closed_form();
+        if is_exact { Truth::Exact } else { Truth::Reference }
+    }
+
     /// Returns the coordinates of a body with these parameter values, in state order.
     pub fn coordinates(&self, values: &[f64]) -> Coordinates {
         match values {

@@ -12,7 +12,6 @@ use crate::law::{At, Equations, Layout, Registers};
 mod claims;
 mod copies;
 mod kind;
-mod walls;
 
 pub use claims::check_law;
 pub use kind::law_kind;
@@ -93,6 +92,21 @@ impl Law {
         [starts, velocities, kicks]
     }
 
+    /// Returns the wall with the restitution that the event has at 1 unit per second.
+    fn with_restitution(&self, wall: Wall, index: usize, t: f64) -> Wall {
+        let mut state = self.start();
+        state.v[wall.coordinate] = wall.velocity - wall.side;
+        self.turn(index, t, &mut state);
+        Wall { restitution: wall.speed(&state.v), ..wall }
+    }
+
+    /// Adds the accelerations by soft walls.
+    fn soft_pushes(&self, t: f64, [q, v]: [&[f64]; 2], a: &mut [f64]) {
+        for wall in (0..).map_while(|index| self.wall(index, t)) {
+            a[wall.coordinate] += wall.soft_push(q, v);
+        }
+    }
+
     fn at<'a>(&self, t: f64, q: &'a [f64], v: &'a [f64]) -> At<'a> {
         At { t, steering: self.steering, q, v }
     }
@@ -164,6 +178,11 @@ impl Body for Law {
         self.equations.is_angle(coordinate)
     }
 
+    fn acceleration_of(&self, t: f64, State { q, v }: &State<Vec<f64>>, coordinate: usize) -> f64 {
+        let registers = &mut self.registers.borrow_mut();
+        self.equations.acceleration_of(registers, self.at(t, q, v), coordinate)
+    }
+
     fn wall(&self, index: usize, t: f64) -> Option<Wall> {
         let wall = self.equations.wall(&mut self.registers.borrow_mut(), index, t)?;
         Some(if self.is_soft { self.with_restitution(wall, index, t) } else { wall })
@@ -182,20 +201,6 @@ impl Body for Law {
         self.equations.switches()
     }
 
-    fn cross(
-        &self,
-        piece: &mut Piece,
-        [switch, side]: [usize; 2],
-        t: f64,
-        state: &mut State<Vec<f64>>,
-    ) -> bool {
-        if let Some(index) = switch.checked_sub(self.first_wall()) {
-            return self.meet(index, &mut piece.modes[switch], t, state);
-        }
-        piece.modes[switch] = self.neighbour(switch, piece.modes[switch], side);
-        false
-    }
-
     fn switches(&self) -> usize {
         self.equations.switches() + self.equations.events()
     }
@@ -204,7 +209,6 @@ impl Body for Law {
         let mut piece = Piece::FIRST;
         let at = self.at(t, &state.q, &state.v);
         self.equations.write_modes(&mut self.registers.borrow_mut(), at, &mut piece.modes);
-        self.write_rests(t, state, &mut piece);
         piece
     }
 
@@ -213,7 +217,6 @@ impl Body for Law {
         let at = self.at(t, &state.q, &state.v);
         let registers = &mut self.registers.borrow_mut();
         self.equations.write_distances(&piece.modes, registers, at, &mut distances);
-        self.write_heights(registers, piece, at, &mut distances);
         distances
     }
 
@@ -226,9 +229,8 @@ impl Body for Law {
     }
 
     fn acceleration_on(&self, piece: &Piece, t: f64, q: &Vec<f64>, v: &Vec<f64>, a: &mut Vec<f64>) {
-        let (at, registers) = (self.at(t, q, v), &mut self.registers.borrow_mut());
-        self.equations.accelerate_on(&piece.modes, registers, at, a);
-        self.hold(registers, piece, t, a);
+        let at = self.at(t, q, v);
+        self.equations.accelerate_on(&piece.modes, &mut self.registers.borrow_mut(), at, a);
     }
 
     fn energy(&self, state: &State<Vec<f64>>) -> Option<f64> {

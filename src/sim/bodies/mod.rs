@@ -83,6 +83,10 @@ pub fn incompatibility(method: &Method, kind: &Kind, values: &[f64]) -> Option<&
             "its lines have a floor at 0, and the law has none; give it `[law.events.floor]`",
         );
     }
+    let amplitude = kind.parameter(ball::FLOOR_AMPLITUDE).and_then(|(index, _)| values.get(index));
+    if (method.is_engine() || method.has_own_floor) && amplitude.is_some_and(|size| *size > 0.0) {
+        return Some("it bounces on a floor at rest, and that of the ball moves");
+    }
     let only = method.only?;
     let is_of = |order: u32| {
         let parameter = kind.parameter(LAW_ORDER);

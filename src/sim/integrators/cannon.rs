@@ -30,6 +30,7 @@ pub(super) const CARD: Method = Method {
         substeps: Substeps::Ticks(
             "for (let i = 0; i < {n}; i++) world.step(dt / {n}) // step {n} times with dt / {n}",
         ),
+        bounce: Some(EngineBounce::Cannon),
         version: "0.20.0, and of p2-es 1.2.3 and Newton 1.8.0",
         logged: Some("2026-11-27"),
         modes: &MODES,

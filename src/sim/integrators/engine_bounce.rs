@@ -1,6 +1,6 @@
 //! How physics engines bounce a ball.
 
-/// An engine's own rule for the bounces of a ball. The rules of planck, matter and Havok are not reproduced.
+/// An engine's own rule for the bounces of a ball of 1 kg. The rules of planck, matter and Havok are not reproduced.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum EngineBounce {
     /// Chipmunk, which moves first, and solves overlaps with the impulses of the last tick.
@@ -18,4 +18,8 @@ pub enum EngineBounce {
     Pybullet,
     /// MuJoCo with `solref = (-1000, -b)`: a penalty force, with b from the restitution.
     Mujoco,
+    /// cannon-es, which pushes a ball that overlaps the wall by its depth and by 12/13 of the rebound.
+    Cannon,
+    /// p2-es, whose contact gives way: a rebound loses more the heavier the ball, and the shorter the tick.
+    P2,
 }

@@ -3,6 +3,7 @@
 //! equations by extrapolation methods* (1966); Hairer, Nørsett & Wanner, *Solving Ordinary Differential Equations I*,
 //! II.9.
 
+use super::walls::{SmoothPiece, distances_to_ends};
 use crate::body::{Body, Distances, NO_BOUNDARIES, Piece};
 use crate::state::{State, Vector, largest};
 use crate::system::System;
@@ -12,21 +13,6 @@ const COLUMNS: usize = 8;
 
 /// The first column whose intermediate states are checked against the boundaries of the force law's piece.
 const FIRST_SAMPLED: usize = 2;
-
-/// One smooth piece of the force law of a body, continued beyond its boundaries.
-struct SmoothPiece<'a, B> {
-    body: &'a B,
-    piece: &'a Piece,
-}
-
-impl<B: Body> System for SmoothPiece<'_, B> {
-    type Vector = B::Vector;
-
-    #[inline]
-    fn acceleration(&self, t: f64, q: &B::Vector, v: &B::Vector, a: &mut B::Vector) {
-        self.body.acceleration_on(self.piece, t, q, v, a);
-    }
-}
 
 /// The extrapolation table and the scratch of a step.
 #[derive(Clone, Debug)]
@@ -148,7 +134,7 @@ impl<V: Vector> Extrapolation<V> {
             stage.assign_sum(y, 1.0, now);
             system.derivative(t + part * i as f64, stage, d);
             if samples_room {
-                let distances = body.distances_to_ends(piece, t + part * i as f64, stage);
+                let distances = distances_to_ends(body, piece, t + part * i as f64, stage);
                 for (least, distance) in min_distances.iter_mut().zip(distances).take(switches) {
                     *least = [least[0].min(distance[0]), least[1].min(distance[1])];
                 }

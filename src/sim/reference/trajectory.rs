@@ -1,6 +1,7 @@
 //! A numerical solution in double-double precision, and the control of its step size.
 
 use super::extrapolation::Extrapolation;
+use super::walls;
 use crate::body::{Body, Distances, MAX_SWITCHES, NO_BOUNDARIES, Piece};
 use crate::double_double::{DoubleDouble, TWO_PI};
 use crate::state::{State, Vector};
@@ -147,7 +148,7 @@ impl<V: Vector> Trajectory<V> {
         self.step = None;
         self.extents = [0.0; MAX_SWITCHES];
         self.unwind(body);
-        self.piece = body.piece(t, &self.at);
+        self.piece = walls::piece(body, t, &self.at);
     }
 
     /// Whether the body rests on a wall, in the mode other than 0.
@@ -168,7 +169,7 @@ impl<V: Vector> Trajectory<V> {
         self.turns.assign(&other.turns);
         self.add(offset);
         self.step = None;
-        self.piece = body.piece(t, &self.at);
+        self.piece = walls::piece(body, t, &self.at);
     }
 
     /// Overwrites `to` with the current state, rounded once.
@@ -276,8 +277,8 @@ impl<V: Vector> Trajectory<V> {
         let counts = [switches, body.first_wall()];
         let (mut begun, mut ended) = (NO_BOUNDARIES, NO_BOUNDARIES);
         if switches > 0 {
-            begun = body.distances_to_ends(&self.piece, t, &self.at);
-            ended = body.distances_to_ends(&self.piece, t + h, work.end(&self.at));
+            begun = walls::distances_to_ends(body, &self.piece, t, &self.at);
+            ended = walls::distances_to_ends(body, &self.piece, t + h, work.end(&self.at));
             self.extend(body, &ended);
         }
         if let Some(crossing) = self.first_crossing(counts, &begun, &ended) {
@@ -289,7 +290,7 @@ impl<V: Vector> Trajectory<V> {
                 self.add(work.added());
             }
             let at_s = t + part * h;
-            if body.cross(&mut self.piece, [switch, side], at_s, &mut self.at) {
+            if walls::cross(body, &mut self.piece, [switch, side], at_s, &mut self.at) {
                 self.low.q.components_mut().fill(0.0);
                 self.low.v.components_mut().fill(0.0);
                 if let Some(landings) = &mut self.landings {
@@ -376,7 +377,8 @@ impl<V: Vector> Trajectory<V> {
                 return (speed <= 0.0).then_some((0.0, crossing));
             }
             whole *= self.find_boundary(body, work, t, whole * h, crossing)?;
-            let mut ended = body.distances_to_ends(&self.piece, t + whole * h, work.end(&self.at));
+            let mut ended =
+                walls::distances_to_ends(body, &self.piece, t + whole * h, work.end(&self.at));
             ended[crossing.switch][crossing.side] = f64::INFINITY;
             match self.first_crossing([body.switches(), body.first_wall()], begun, &ended) {
                 Some(earlier) => crossing = earlier,
@@ -406,7 +408,8 @@ impl<V: Vector> Trajectory<V> {
             part = inner.0 + (outer.0 - inner.0) * (inner.1 / (inner.1 - outer.1));
             work.attempt(body, &self.piece, t, part * h, &self.at, self.control.tolerance())?;
             let ended = work.end(&self.at);
-            let distance = body.distances_to_ends(&self.piece, t + part * h, ended)[switch][side];
+            let distance =
+                walls::distances_to_ends(body, &self.piece, t + part * h, ended)[switch][side];
             if distance.abs() <= near || part == inner.0 || part == outer.0 {
                 break;
             }

@@ -84,7 +84,7 @@ impl SeriesStyles {
             front: loops.selected(),
             is_race: true,
             are_loops: true,
-            exact: loops.body().kind.truth.id().into(),
+            exact: loops.body().truth().id().into(),
             exact_colour: palette.exact,
             now_s: loops.now_ns() as f64 / 1e9,
             length_s: loops.end_ns() as f64 / 1e9,

@@ -9,7 +9,7 @@ mod cards;
 mod claims;
 mod cost;
 mod followers;
-
+mod impacts;
 mod implicit;
 mod limits;
 mod linearised;

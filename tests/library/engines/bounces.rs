@@ -2,7 +2,7 @@
 
 use regatta::scene::{LaneSpec, Scene};
 use regatta::sim::bodies::Ball;
-use regatta::sim::integrators::{METHODS, method};
+use regatta::sim::integrators::{METHODS, method, method_or_nearest};
 use regatta::sim::{Bounces, Impact, Solver, impact, stepper};
 
 const G: f64 = 9.81;
@@ -13,8 +13,9 @@ fn ball(height: f64, restitution: f64) -> Ball {
 
 /// The states of a ball at every tick under an engine, and the heights of its flights.
 fn run(id: &str, ball: Ball, hz: f64, ticks: usize) -> (Vec<[f64; 2]>, Vec<f64>) {
-    let (card, h) = (method(id).unwrap(), 1.0 / hz);
-    let mut lane = stepper(ball, Solver::Method(card));
+    let (card, h) = (method_or_nearest(id).unwrap(), 1.0 / hz);
+    let rule = impact(id).unwrap_or(Impact::of(card));
+    let mut lane = stepper(ball, Solver::Bouncing(card, None, rule));
     let (mut states, mut apexes) = (vec![[lane.q()[0], lane.v()[0]]], Vec::new());
     let mut before = Bounces::default();
     for tick in 0..ticks {
@@ -63,6 +64,9 @@ fn engines_bounce_a_ball_as_their_logs() {
     }
 }
 
+/// Ten heights of cannon-es at e = 1, which wander.
+const CANNON: [f64; 10] = [0.944, 1.237, 1.572, 1.357, 1.443, 1.296, 1.710, 1.506, 1.242, 1.168];
+
 #[test]
 fn engines_reach_the_heights_of_their_releases() {
     for (id, [height, e, hz], wanted, within) in [
@@ -94,6 +98,25 @@ fn engines_reach_the_heights_of_their_releases() {
         ("engine-pybullet", [1.0, 1.0, 60.0], &[1.1462, 1.3512, 1.5442], 1e-4),
         ("engine-mujoco", [1.0, 0.8, 60.0], &[0.6186, 0.4706, 0.2783, 0.1797, 0.1228], 1e-4),
         ("engine-mujoco", [10.0, 1.0, 60.0], &[9.94, 9.99], 1e-2),
+        ("engine-cannon", [1.0, 1.0, 60.0], &CANNON, 1e-3),
+        ("engine-cannon", [10.0, 1.0, 60.0], &[12.15, 11.36], 1e-2),
+        (
+            "engine-cannon",
+            [1.0, 0.8, 60.0],
+            &[0.6144, 0.2785, 0.1676, 0.0968, 0.0736, 0.0472],
+            1e-4,
+        ),
+        ("engine-cannon", [1.0, 0.8, 30.0], &[0.8994], 1e-4),
+        ("engine-cannon", [1.0, 0.8, 240.0], &[0.4902], 1e-4),
+        ("engine-p2", [1.0, 1.0, 60.0], &[0.9969, 0.9934, 0.9899], 1e-4),
+        (
+            "engine-p2",
+            [1.0, 0.8, 60.0],
+            &[0.6329, 0.3999, 0.2545, 0.1605, 0.0954, 0.0612, 0.0380, 0.0201],
+            1e-4,
+        ),
+        ("engine-p2", [1.0, 0.8, 30.0], &[0.6008], 1e-4),
+        ("engine-p2", [1.0, 0.8, 240.0], &[0.6025], 1e-4),
     ] {
         let (states, found) = run(id, ball(height, e), hz, (12.0 * hz) as usize);
         for (n, wanted) in wanted.iter().enumerate() {
@@ -109,6 +132,11 @@ fn engines_reach_the_heights_of_their_releases() {
     assert!(kept.len() > 90 && kept.iter().all(|apex| (apex - 1.0003).abs() < 1e-4), "{kept:?}");
     let (_, kept) = run("engine-chipmunk", ball(10.0, 1.0), 60.0, 17_400);
     near(kept[99], 10.0946, 1e-4, "apex 100 of Chipmunk");
+    let (states, kept) = run("engine-p2", ball(1.0, 1.0), 60.0, 6000);
+    near(kept[99], 0.7027, 1e-4, "apex 100 of p2-es");
+    assert!(states.iter().all(|[y, _]| *y > -0.3));
+    let (states, _) = run("engine-p2", ball(1.0, 0.8), 60.0, 600);
+    near(states[600][0], -0.005, 2e-5, "p2-es at rest");
     let (states, _) = run("engine-pybullet", ball(1.0, 1.0), 240.0, 480);
     let rests = states.iter().rposition(|[_, v]| v.abs() > 1e-9).unwrap() + 1;
     near(rests as f64 / 240.0, 0.621, 1.0 / 240.0, "the rest of pybullet");
@@ -155,5 +183,7 @@ fn an_engine_has_its_own_rule_for_impacts_and_no_other() {
         let (own, clamp) = (Impact::of(card), impact("clamp").unwrap());
         assert_eq!(own.id == "engine", card.bounce().is_some(), "{}", card.id);
         assert!(own.fits(card) && clamp.fits(card) == card.bounce().is_none(), "{}", card.id);
+        let is_p2 = card.spellings().any(|(spelling, _)| spelling == "engine-p2");
+        assert_eq!(impact("engine-p2").unwrap().fits(card), is_p2, "{}", card.id);
     }
 }

@@ -90,7 +90,10 @@ fn the_truth_of_a_law_rests_and_never_falls_through_its_floor() {
 #[test]
 fn a_law_bounces_as_the_ball_does_to_the_bit() {
     let mut dice = Dice::new(0x82_f100);
-    for it in IMPACTS.iter().filter(|it| !["engine", "none", "penalty"].contains(&it.id)) {
+    for it in IMPACTS
+        .iter()
+        .filter(|it| !["none", "penalty"].contains(&it.id) && !it.id.starts_with("engine"))
+    {
         for id in ["velocity-verlet", "semi-implicit-euler", "rk4"] {
             let (height, e) = (dice.between(0.5, 2.0), dice.between(0.5, 1.0));
             let start = format!("start = {height:?}\nstart_velocity = 0.1");
