@@ -315,7 +315,7 @@ fn samples(studio: &Studio, body: usize) -> impl Iterator<Item = TruthSample> {
     let truth = &studio.race().truth().bodies()[body];
     let goes_on = truth.halted().is_none() && curve.samples().next_back().is_some_and(|s| s.t < t);
     let present = goes_on.then(|| curve.present(truth, t));
-    curve.samples().copied().chain(present)
+    curve.since(studio.deck.drawn_from_s()).copied().chain(present)
 }
 
 /// Returns a quantity at a sample as a point over time, or `None` if the quantity is not finite.
