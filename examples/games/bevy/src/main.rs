@@ -154,7 +154,12 @@ mod tests {
                 probe.motion.bits_hash()
             })
             .collect();
-        let kept = [0; 4];
+        let kept = [
+            0x00bf_4c8e_1c23_f1e0,
+            0x2250_22f4_9844_913e,
+            0xe074_93b7_12be_4fe1,
+            0xeeb9_02fe_1d07_e9a5,
+        ];
         assert_eq!(ends, kept, "{ends:#x?}");
     }
 }
