@@ -424,7 +424,7 @@ fn an_orbit_that_falls_inward_and_fails_there_dies_away() {
     let spec = LaneSpec::plain(regatta::sim::integrators::method("bdf2").unwrap());
     let found = Judge::new(&scene).verdict(spec, 31);
     assert_eq!((found.outcome(), found.long_term.is_bounded), (Outcome::DiesAway, Some(false)));
-    assert!(found.to_string().starts_with("dies away · ½ in 320 s"), "{found}");
+    assert!(found.to_string().starts_with("dies away · reach ½ in 320 s"), "{found}");
     assert!(grows(&scene, spec, 31, &found), "it fails in its twenty-first scene");
 }
 
