@@ -209,7 +209,8 @@ pub(super) fn open_as(studio: &mut Studio, name: &str, scene: Scene, mode: Mode)
 
 /// Replaces the scene of a changed file. If the scene is open, its run keeps its state: it goes on if actions make the
 /// change, such as another mass. Under other equations it is run again to the present tick, and every lane is put into
-/// the present state of the selected one, whose past stays drawn. With other lanes, bodies or coordinates it starts at tick 0.
+/// the present state of the selected one, whose past stays drawn. With other lanes, bodies or coordinates it starts at
+/// tick 0.
 pub fn reload_file(studio: &mut Studio, path: &Path, scene: Scene) {
     let is_open = studio.deck.scene_list.open_path() == Some(path);
     let before = studio.deck.scene_list.open().map(|index| studio.deck.scene_list.scene(index));
@@ -335,7 +336,8 @@ fn change_in_flight(studio: &mut Studio, scene: Scene, actions: Vec<Action>) -> 
 fn run_again(studio: &mut Studio, scene: Scene) -> String {
     let (before, selected) = (studio.deck.race().tick(), studio.deck.selected());
     let tick = if before > MAX_RERUN { 0 } else { before };
-    let histories = studio.past().histories(selected.id).to_vec();
+    let (histories, from_s) =
+        (studio.past().histories(selected.id).to_vec(), studio.deck.drawn_from_s());
     let placed = selected.lane.bodies().iter().enumerate().map(|(body, at)| Action::Place {
         body,
         q: at.stepper.q().into(),
@@ -358,7 +360,7 @@ fn run_again(studio: &mut Studio, scene: Scene) -> String {
     act_as_in_file(studio, actions);
     if tick == before {
         let (until_s, name) = (studio.race().t(), "the file as it was".into());
-        let run_before = RunBefore { histories, until_s, name, is_continued: true };
+        let run_before = RunBefore { histories, from_s, until_s, name, is_continued: true };
         studio.deck.run_before = Some(run_before.into());
     }
     studio.deck.running &= !studio.deck.comes_to_rest(studio.viewer.motion());

@@ -11,6 +11,8 @@ use crate::sim::TickRate;
 pub struct RunBefore {
     /// The past of each body in the lane that was selected.
     pub histories: Vec<History>,
+    /// Time in seconds from which that run is drawn; before its start, unless a change of its file came before.
+    pub from_s: f64,
     /// Time in seconds at which a person first changed the tick rate or the method of that run; infinity without a
     /// change. Later samples belong to neither run.
     pub until_s: f64,
@@ -70,7 +72,7 @@ impl EndingRun {
             (_, now_spec) if now_spec != spec => spec.method.name.to_owned(),
             _ => return None,
         };
-        let Self { histories, until_s, .. } = self;
-        Some(Box::new(RunBefore { histories, until_s, name, is_continued: false }))
+        let (Self { histories, until_s, .. }, from_s) = (self, f64::NEG_INFINITY);
+        Some(Box::new(RunBefore { histories, from_s, until_s, name, is_continued: false }))
     }
 }

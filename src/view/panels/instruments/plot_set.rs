@@ -158,7 +158,7 @@ impl BeforeLine {
         place: impl Fn(&Sample) -> [f64; 2],
     ) -> Option<Self> {
         let before = studio.deck.run_before()?;
-        let samples = before.histories.get(body)?.samples();
+        let samples = before.histories.get(body)?.since(before.from_s);
         let places = samples.take_while(|sample| sample.t <= before.until_s);
         let places = places.map(|sample| (sample.t, place(sample)));
         let track = Track::of_places(studio.active(), false, places);
