@@ -230,6 +230,8 @@ impl Judge {
         // A motion that grew once but stays bounded counts as bounded. A motion that has yet to grow does not.
         let change = match (within, long_term.is_bounded) {
             (Trend::Grows, Some(true)) => Trend::None,
+            // An orbit that loses energy falls inward, and may fail there without having grown.
+            (Trend::None, Some(false)) if run.has_only_lost() => Trend::Dies,
             (Trend::None, Some(false)) => Trend::Grows,
             _ => within,
         };

@@ -294,6 +294,11 @@ impl JudgedRun {
         self.doubled_at.is_some() || self.velocity_doubled_at.is_some()
     }
 
+    /// Whether a losing swing failed beyond the horizon before it had grown.
+    pub(super) fn has_only_lost(&self) -> bool {
+        self.is_losing && self.later.is_some() && !self.has_grown()
+    }
+
     /// Whether a losing swing has neither grown nor come to rest.
     fn is_undecided(&mut self, stepper: &dyn Stepper, truth: &BodyTruth) -> bool {
         !self.has_grown() && !self.rests(stepper, truth)

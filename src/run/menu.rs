@@ -72,7 +72,8 @@ impl Menu {
         match (race.mode(), done.switch, &done.action) {
             (Mode::Race, Some(Switch { lane, spec, .. }), _) => {
                 let own = self.entry(lane);
-                if self.specs[own].method == spec.method {
+                // Another version of a person's own lines takes the place of the earlier one.
+                if self.specs[own].method.id == spec.method.id {
                     self.specs[own] = spec;
                 }
             }
@@ -101,7 +102,7 @@ impl Menu {
         let is_free = |&entry: &MenuIndex| {
             let by_other =
                 |known: &(LaneId, MenuIndex)| *known == (known.0, entry) && known.0 != lane;
-            self.specs[entry].method == spec.method && !self.lane_entries.iter().any(by_other)
+            self.specs[entry].method.id == spec.method.id && !self.lane_entries.iter().any(by_other)
         };
         let free = self.known_entry(lane).into_iter().chain(0..self.specs.len()).find(is_free);
         let Some(entry) = free else { return self.added(spec) };

@@ -11,6 +11,8 @@ use super::course::Hashes;
 use super::race::{Mode, Observer, PerformedAction, Race, Switch};
 use super::{Run, Session};
 use crate::scene::{Action, Check, LaneId, LaneSpec, MAX_FILE_BYTES, MIN_SECONDS, Scene, Scripted};
+use crate::sim::integrators::Method;
+use crate::sim::own_method;
 
 /// Maximum number of checks of a recording, which keeps the file readable. A long run has fewer than one check per
 /// second.
@@ -101,7 +103,38 @@ impl Run {
         if end > 0 {
             scene.seconds = race.t().max(MIN_SECONDS);
         }
+        name_versions(&mut scene);
         scene
+    }
+}
+
+/// Gives later versions of a person's own method names of their own, such as `mine-2`, because a file has one method
+/// of each id.
+fn name_versions(scene: &mut Scene) {
+    let switched = scene.script.iter_mut().filter_map(|row| match &mut row.action {
+        Action::Lane { spec, .. } => Some(&mut spec.method),
+        _ => None,
+    });
+    let known = &mut scene.own_methods;
+    let mut versions: Vec<[&'static Method; 2]> = Vec::new();
+    for method in scene.lanes.iter_mut().map(|lane| &mut lane.method).chain(switched) {
+        let of_id = |own: &&Method| own.id == method.id;
+        let Some(text) = method.own_text().filter(|_| known.iter().any(of_id)) else { continue };
+        if known.contains(method) {
+            continue;
+        }
+        let named = versions.iter().find(|[version, _]| version == method).map(|[_, named]| *named);
+        let named = named.or_else(|| {
+            let ids = (2..).map(|version| format!("{}-{version}", method.id));
+            let mut ids = ids.skip_while(|id| known.iter().any(|own| own.id == id));
+            own_method(&ids.next()?, text).ok()
+        });
+        let Some(named) = named else { continue };
+        versions.push([*method, named]);
+        *method = named;
+        if !known.contains(&named) {
+            known.push(named);
+        }
     }
 }
 

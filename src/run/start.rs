@@ -80,13 +80,11 @@ impl StartSettings {
         if known.is_none() && self.scene.lanes.len() >= MAX_LANES {
             return false;
         }
+        self.know_own(method);
         for scene in [&mut self.opened, &mut self.scene] {
-            let mut with = (**scene).clone();
-            with.know_own(method);
-            if with.lanes.iter().all(|lane| lane.method != method) {
-                with.lanes.push(spec);
+            if scene.lanes.iter().all(|lane| lane.method != method) {
+                Arc::make_mut(scene).lanes.push(spec);
             }
-            *scene = with.into();
         }
         let entry = known.unwrap_or(self.list.len());
         match known {
@@ -98,6 +96,15 @@ impl StartSettings {
         }
         (self.entry, self.mode, self.lanes_before_equal_cost) = (entry, Mode::Race, None);
         true
+    }
+
+    /// Puts a person's own method in place of an earlier one with the same id.
+    pub fn know_own(&mut self, method: &'static Method) {
+        for scene in [&mut self.opened, &mut self.scene] {
+            Arc::make_mut(scene).know_own(method);
+        }
+        let specs = self.list.iter_mut().chain(self.given.iter_mut().map(|(_, spec)| spec));
+        specs.filter(|spec| spec.method.id == method.id).for_each(|spec| spec.method = method);
     }
 
     /// Replaces the scene by its changed form, with lanes of the same methods by id. The rate of the new scene applies

@@ -8,6 +8,13 @@
 #![warn(clippy::exit, clippy::print_stderr, clippy::print_stdout)]
 #![cfg_attr(not(test), warn(clippy::disallowed_methods, clippy::disallowed_types))]
 #![warn(clippy::iter_over_hash_type)]
+#![cfg_attr(
+    feature = "batch",
+    allow(
+        clippy::incompatible_msrv,
+        reason = "the oldest compiler is for games, without features"
+    )
+)]
 // docs.rs marks what needs a feature with its name.
 #![cfg_attr(docsrs, feature(doc_cfg))]
 

@@ -62,7 +62,10 @@ pub(super) fn pick(studio: &mut Studio, entry: MenuIndex) {
     studio.deck.selected = lane;
     studio.deck.is_selected = true;
     if studio.mode() == Mode::Solo {
-        let spec = studio.entries()[entry];
+        let mut spec = studio.entries()[entry];
+        // The lines of a person's own method may have changed since the run began.
+        let own = studio.scene().own_methods.iter().find(|own| own.id == spec.method.id);
+        spec.method = own.copied().unwrap_or(spec.method);
         act(studio, Action::Lane { lane, spec });
     }
     studio.deck.run.next_mut().entry = entry;

@@ -41,6 +41,8 @@ pub struct Deck {
     /// Number of menu methods that the person has met, which are all those up to the last that was active.
     met: usize,
     pub(super) dropped: u64,
+    /// Actions of this run, with their ticks, that a change of a file has asked for.
+    pub(super) of_files: Vec<(u64, Action)>,
     /// Number of scenes opened so far. A driver excludes the time that an opening takes.
     pub(super) openings: u64,
     /// Number of edits, and number of edits that are saved.
@@ -80,6 +82,7 @@ impl Deck {
             is_selected: false,
             met: 0,
             dropped: 0,
+            of_files: Vec::new(),
             openings: 0,
             edits: 0,
             saved_edits: 0,
@@ -108,6 +111,14 @@ impl Deck {
     /// Returns the run before the last restart, if it had another tick rate or method.
     pub fn run_before(&self) -> Option<&RunBefore> {
         self.run_before.as_deref()
+    }
+
+    /// Returns the time (s) from which plots draw the present run; before the start, unless that run goes on from the
+    /// end of the [run before](Self::run_before).
+    pub fn drawn_from_s(&self) -> f64 {
+        let before =
+            self.run_before().filter(|it| it.is_continued && it.until_s <= self.race().t());
+        before.map_or(f64::NEG_INFINITY, |before| before.until_s)
     }
 
     /// Returns the lanes and the truth.

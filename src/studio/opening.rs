@@ -14,10 +14,11 @@ use super::driving::make_tick;
 use super::instrument::Instrument;
 use super::my_spring::MySpring;
 use super::restarting::{Jump, follow, is_by_hand, restart};
+use super::run_before::RunBefore;
 use super::step::Step;
 use super::viewer::Dialog;
 use crate::run::diff::Comparison;
-use crate::run::race::{Author, Mode};
+use crate::run::race::{Entrant, Mode};
 use crate::run::{Run, StartSettings};
 use crate::scene::{Action, LaneSpec, Scene, SceneErrors, ShownError};
 use crate::sim::TickRate;
@@ -130,36 +131,36 @@ pub(super) fn open_spring(studio: &mut Studio) {
     open_described(studio, spring.advised_scene(tick_hz));
 }
 
-/// Races the changed lines of a person's own method in place of the earlier ones, if those are in the open scene. The
-/// run is repeated to the present tick with the actions by hand, so that all other lanes keep their states.
+/// Races the changed lines of a person's own method in place of the earlier ones, if those are in the open scene. Their
+/// lanes are switched in flight, so that every lane keeps its state.
 pub fn reload_own_method(studio: &mut Studio, lane: LaneSpec) {
-    let (method, race) = (lane.method, studio.race());
-    let (tick, is_race) = (race.tick(), race.mode() == Mode::Race);
-    let by_hand = race.journal().rows()[..race.done()].iter();
-    let by_hand = by_hand.filter(|row| row.author == Author::Person);
-    let actions: Vec<(u64, Action)> = by_hand.map(|row| (row.tick, row.action.clone())).collect();
-    race_own_method(studio, lane);
-    if !studio.entries().iter().any(|entry| entry.method == method) {
-        return;
+    let method = lane.method;
+    if let Some(refusal) = studio.scene().refusal(method) {
+        return studio.viewer.set_notice(refusal.to_string());
     }
-    if tick > MAX_RERUN || !is_race {
-        let told = format!("{}: reloaded from the start; {}", method.id, method.about);
-        return studio.viewer.set_notice(told);
-    }
-    let mut actions = actions.into_iter().peekable();
-    loop {
-        let now = studio.race().tick();
-        while let Some((_, action)) = actions.next_if(|(at, _)| *at <= now) {
-            act(studio, action);
-        }
-        if now >= tick {
-            break;
-        }
-        make_tick(studio, &mut ());
-    }
+    studio.deck.set_start("the change of the file", |next| {
+        next.know_own(method);
+        true
+    });
+    count_as_opened(studio);
+    let lanes = studio.race().entrants().iter().filter(|it| it.spec.method.id == method.id);
+    let switches = lanes.map(|&Entrant { id: lane, spec, .. }| Action::Lane {
+        lane,
+        spec: LaneSpec { method, ..spec },
+    });
+    act_as_in_file(studio, switches.collect());
     studio.deck.run.show_present();
-    let (id, about) = (method.id, method.about);
-    studio.viewer.set_notice(format!("{id}: reloaded, the run repeated to tick {tick}; {about}"));
+    let (id, about, tick) = (method.id, method.about, studio.race().tick());
+    studio.viewer.set_notice(format!("{id}: reloaded, state kept at tick {tick}; {about}"));
+}
+
+/// Performs actions that a change of a file asks for.
+fn act_as_in_file(studio: &mut Studio, actions: Vec<Action>) {
+    let tick = studio.race().tick();
+    for action in actions {
+        studio.deck.of_files.push((tick, action.clone()));
+        act(studio, action);
+    }
 }
 
 /// Whether a person's own method with this id is in the open scene.
@@ -208,7 +209,8 @@ pub(super) fn open_as(studio: &mut Studio, name: &str, scene: Scene, mode: Mode)
 
 /// Replaces the scene of a changed file. If the scene is open, its run keeps its state: it goes on if actions make the
 /// change, such as another mass. Under other equations it is run again to the present tick, and every lane is put into
-/// the present state of the selected one. With other lanes, bodies or coordinates it starts at tick 0.
+/// the present state of the selected one, whose past stays drawn. With other lanes, bodies or coordinates it starts at
+/// tick 0.
 pub fn reload_file(studio: &mut Studio, path: &Path, scene: Scene) {
     let is_open = studio.deck.scene_list.open_path() == Some(path);
     let before = studio.deck.scene_list.open().map(|index| studio.deck.scene_list.scene(index));
@@ -220,8 +222,8 @@ pub fn reload_file(studio: &mut Studio, path: &Path, scene: Scene) {
         return studio.viewer.set_notice(format!("{name} saved; nothing that matters changed"));
     }
     let told = if !is_alike(&before, &scene) {
-        let is_by_hand = is_by_hand(&studio.deck.run);
-        let left_out = if is_by_hand { " (your kicks and edits left out)" } else { "" };
+        let left_out =
+            if is_by_hand(&studio.deck) { " (your kicks and edits left out)" } else { "" };
         studio.loops = None;
         open(studio, index);
         format!("reloaded from the start, with other lanes or bodies{left_out}")
@@ -324,9 +326,7 @@ fn change_in_flight(studio: &mut Studio, scene: Scene, actions: Vec<Action>) -> 
         true
     });
     count_as_opened(studio);
-    for action in at_once {
-        act(studio, action);
-    }
+    act_as_in_file(studio, at_once);
     studio.deck.run.show_present();
     told
 }
@@ -336,6 +336,8 @@ fn change_in_flight(studio: &mut Studio, scene: Scene, actions: Vec<Action>) -> 
 fn run_again(studio: &mut Studio, scene: Scene) -> String {
     let (before, selected) = (studio.deck.race().tick(), studio.deck.selected());
     let tick = if before > MAX_RERUN { 0 } else { before };
+    let (histories, from_s) =
+        (studio.past().histories(selected.id).to_vec(), studio.deck.drawn_from_s());
     let placed = selected.lane.bodies().iter().enumerate().map(|(body, at)| Action::Place {
         body,
         q: at.stepper.q().into(),
@@ -355,8 +357,11 @@ fn run_again(studio: &mut Studio, scene: Scene) -> String {
     for _ in 0..tick {
         make_tick(studio, &mut ());
     }
-    for action in actions {
-        act(studio, action);
+    act_as_in_file(studio, actions);
+    if tick == before {
+        let (until_s, name) = (studio.race().t(), "the file as it was".into());
+        let run_before = RunBefore { histories, from_s, until_s, name, is_continued: true };
+        studio.deck.run_before = Some(run_before.into());
     }
     studio.deck.running &= !studio.deck.comes_to_rest(studio.viewer.motion());
     studio.deck.run.show_present();

@@ -7,8 +7,9 @@
 use std::sync::Arc;
 
 use super::Studio;
+use super::deck::Deck;
 use super::run_before::EndingRun;
-use crate::run::race::{Author, Mode};
+use crate::run::race::{Author, JournalRow, Mode};
 use crate::run::{Run, StartSettings};
 
 /// Kind of a jump.
@@ -41,9 +42,13 @@ pub(super) fn follow(studio: &mut Studio, jump: Jump) {
     studio.deck.run.show_present();
 }
 
-/// Whether a person has acted on the run.
-pub(super) fn is_by_hand(run: &Run) -> bool {
-    run.session().journal().rows().iter().any(|row| row.author == Author::Person)
+/// Whether a person has acted on the run, apart from changes of its files.
+pub(super) fn is_by_hand(deck: &Deck) -> bool {
+    let mut rows = deck.run.session().journal().rows().iter();
+    let is_of_file = |row: &JournalRow| {
+        deck.of_files.iter().any(|(tick, action)| (*tick, action) == (row.tick, &row.action))
+    };
+    rows.any(|row| row.author == Author::Person && !is_of_file(row))
 }
 
 /// Restarts the run after `set` has edited its settings. If `kept` has a description, an undo can bring back the run so
@@ -62,7 +67,7 @@ pub(super) fn restart(
 /// settings. Any other run would only repeat itself. Returns whether the old run was kept.
 pub(super) fn restart_keeping_run(studio: &mut Studio) -> bool {
     let is_edited = !Arc::ptr_eq(studio.deck.run.session().scene(), &studio.deck.run.next().scene);
-    let keeps = is_by_hand(&studio.deck.run) || is_edited;
+    let keeps = is_by_hand(&studio.deck) || is_edited || !studio.deck.of_files.is_empty();
     let (earlier, ending) =
         (studio.deck.run_before.take(), EndingRun::of(&studio.deck.run, studio.selected()));
     let start = studio.deck.run.start().clone();

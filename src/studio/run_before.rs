@@ -7,15 +7,19 @@ use crate::run::race::{Author, Entrant, Mode, Race};
 use crate::scene::{Action, LaneSpec};
 use crate::sim::TickRate;
 
-/// The run before the last restart, under another tick rate or another method.
+/// The run before the last restart, under another tick rate, another method or other equations.
 pub struct RunBefore {
     /// The past of each body in the lane that was selected.
     pub histories: Vec<History>,
+    /// Time in seconds from which that run is drawn; before its start, unless a change of its file came before.
+    pub from_s: f64,
     /// Time in seconds at which a person first changed the tick rate or the method of that run; infinity without a
     /// change. Later samples belong to neither run.
     pub until_s: f64,
     /// What that run had instead, such as `2 Hz` or `Explicit Euler`.
     pub name: String,
+    /// Whether the present run goes on from the end of that run, after a change of its file.
+    pub is_continued: bool,
 }
 
 /// A run that is about to restart.
@@ -68,6 +72,7 @@ impl EndingRun {
             (_, now_spec) if now_spec != spec => spec.method.name.to_owned(),
             _ => return None,
         };
-        Some(Box::new(RunBefore { histories: self.histories, until_s: self.until_s, name }))
+        let (Self { histories, until_s, .. }, from_s) = (self, f64::NEG_INFINITY);
+        Some(Box::new(RunBefore { histories, from_s, until_s, name, is_continued: false }))
     }
 }

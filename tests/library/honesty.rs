@@ -346,9 +346,16 @@ fn grows(scene: &Scene, spec: LaneSpec, tick_hz: u32, verdict: &Verdict) -> bool
     else {
         return true;
     };
-    let is_wider = lane.iter().zip(&truth).any(|(lane, truth)| *lane >= 1.8 * truth);
+    let is_wider = |lane: &[f64]| lane.iter().zip(&truth).any(|(lane, truth)| *lane >= 1.8 * truth);
     // The swing of a linear body keeps growing at the rate seen here.
-    is_wider || late > early + if is_linear { 1e-6 } else { 3e-3 } * kinetic
+    if is_wider(&lane) || late > early + if is_linear { 1e-6 } else { 3e-3 } * kinetic {
+        return true;
+    }
+    // An orbit that falls inward may fail there later.
+    let falls = about_origin && late < early;
+    falls
+        && widest(spec.solver(), 100 * (seconds * hz) as u64, 1.0 / hz)
+            .is_none_or(|(lane, ..)| is_wider(&lane))
 }
 
 /// Whether a deviation doubles within a year, by the map of a tick multiplied with itself.
@@ -407,6 +414,18 @@ fn an_ellipse_that_turns_does_not_grow() {
         let wanted = !grows(scene, spec, tick_hz, &found);
         assert_eq!(found.long_term.is_bounded, Some(wanted), "{id} at {tick_hz} Hz: {found}");
     }
+}
+
+#[test]
+fn an_orbit_that_falls_inward_and_fails_there_dies_away() {
+    let text = "title = \"t\"\ntick_hz = 31\nseconds = 22.938\n[[orbit]]\nmu_m3_per_s2 = 2136.563919653029\n\
+        x0_m = 21.068730561162283\nvy0_m_per_s = 6.549027093347124\n";
+    let scene = Scene::parse("t", text).unwrap();
+    let spec = LaneSpec::plain(regatta::sim::integrators::method("bdf2").unwrap());
+    let found = Judge::new(&scene).verdict(spec, 31);
+    assert_eq!((found.outcome(), found.long_term.is_bounded), (Outcome::DiesAway, Some(false)));
+    assert!(found.to_string().starts_with("dies away · reach ½ in 320 s"), "{found}");
+    assert!(grows(&scene, spec, 31, &found), "it fails in its twenty-first scene");
 }
 
 #[test]

@@ -17,6 +17,8 @@ mod processor;
 mod rules;
 mod source_code;
 
+#[cfg(feature = "desktop")]
+use std::process::Command;
 use std::process::ExitCode;
 
 use needs::{Need, Tests, has, tests};
@@ -91,6 +93,11 @@ fn add_drawn(tests: &mut Tests) {
     const FILMS: Need =
         Need::new("ffmpeg", || has("ffmpeg", "-version") && has("ffprobe", "-version"));
     const GIFS: Need = Need::new("gifsicle", || has("gifsicle", "--version"));
+    const CLIPPY: Need = Need::new("clippy of rustup", || has("clippy-driver", "--version"));
+    const MCP: Need = Need::new("mcp 2.3.0 of Python (pip)", || {
+        let client = Command::new("python3").args(["-c", "import mcp"]).output();
+        client.is_ok_and(|client| client.status.success())
+    });
     const PNGS: Need = Need::new("pngcheck", || has("pngcheck", "-h"));
     const PYTHON: Need = Need::new("python3", || has("python3", "--version"));
 
@@ -105,6 +112,7 @@ fn add_drawn(tests: &mut Tests) {
         }
     }
     tests! { tests of command_line:
+        [MCP] => assistant { a_client_of_another_maker_lists_and_calls_the_tools }
         [DEVICE] => verify { frames_from_a_device_verify_within_the_limits }
         [FILMS] => formats {
             ffmpeg_reads_every_film_with_the_drawn_frames,
@@ -121,6 +129,7 @@ fn add_drawn(tests: &mut Tests) {
         }
         [PYTHON] => fixture { a_good_engine_passes_and_a_bad_one_fails_in_python }
         [CPP] => fixture { a_good_engine_passes_and_a_bad_one_fails_in_cpp }
+        [CLIPPY] => fixture { a_fixture_in_rust_passes_the_lints }
         [] => fixture {
             a_good_engine_passes_and_a_bad_one_fails_in_rust,
             a_fixture_has_the_states_of_a_trace_and_the_least_tolerance_of_its_truth,

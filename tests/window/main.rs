@@ -119,6 +119,7 @@ fn main() -> std::process::ExitCode {
             a_path_without_a_scene_is_reported_and_the_run_continues,
             a_deleted_file_is_reported_and_a_restored_one_is_reread,
             a_file_changed_on_disk_is_taken_with_its_state_unless_it_is_broken,
+            changed_lines_of_a_method_go_on_from_the_state_in_the_window,
         }
         DISPLAY => shape {
             window_and_screenshot_agree_at_every_scale,

@@ -130,3 +130,20 @@ pub(crate) fn a_file_changed_on_disk_is_taken_with_its_state_unless_it_is_broken
     desk.titled(&title.replace("50 Hz", "40 Hz"));
     desk.quit();
 }
+
+pub(crate) fn changed_lines_of_a_method_go_on_from_the_state_in_the_window() {
+    let (_folder, path) = file("mine.step", "v += h * a(x, v); x += h * v");
+    let desk = Desk::open("--scene spring");
+    type_path(&desk, &path);
+    desk.press("Return");
+    until("the method", || desk.title().contains("mine").then_some(()));
+    desk.press("space");
+    until("a pause", || desk.title().contains("(paused").then_some(()));
+    let title = desk.title();
+    desk.still();
+    let sight = desk.sight();
+    std::fs::write(&path, "x += h * v; v += h * a(x, v)").unwrap();
+    until("a notice", || (desk.sight() != sight).then_some(()));
+    assert_eq!(desk.title(), title);
+    desk.quit();
+}

@@ -372,10 +372,12 @@ impl Method {
     /// Returns an upper bound on how many numbers the method keeps on the heap besides its own vectors, for `n`
     /// coordinates with this coupling. A custom method counts as one with sixteen vectors.
     pub(crate) fn numbers_kept(&self, n: usize, coupling: Coupling) -> usize {
+        #[cfg(feature = "lab")]
+        if let Some(own) = self.own {
+            return (own.text().slots() + 3) * n;
+        }
         let matrices = self.matrices as usize;
         match coupling.reach(n) {
-            #[cfg(feature = "lab")]
-            _ if let Some(own) = self.own => (own.text().slots() + 3) * n,
             _ if self.custom.is_some() => 16 * (n + 3),
             // The exponential of a small matrix is a full matrix.
             Some(_) if self.family == Family::Linearised && n <= 32 => matrices * (n + 2) * (n + 2),

@@ -136,7 +136,8 @@ impl Track {
             is_held: false,
         };
         let lanes = studio.race().entrants().iter();
-        let mut tracks: Vec<Self> = lanes.map(track).collect();
+        let from_s = studio.deck.drawn_from_s();
+        let mut tracks: Vec<Self> = lanes.map(|lane| track(lane).since(from_s)).collect();
         tracks.sort_by_key(|track| track.is_front);
         tracks
     }

@@ -114,6 +114,19 @@ pub(crate) fn a_good_engine_passes_and_a_bad_one_fails_in_rust() {
     tells_engines_apart(RUST);
 }
 
+pub(crate) fn a_fixture_in_rust_passes_the_lints() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("fixture.rs");
+    for precision in ["", " --float"] {
+        // The speeds of a spring of 1 Hz look like constants.
+        fs::write(&file, stdout_of(&format!("fixture --scene spring --as rust{precision}")))
+            .unwrap();
+        let mut lints = Command::new("clippy-driver");
+        lints.args(["--edition", "2024", "--test", "-Dwarnings"]).arg(&file);
+        compile(lints.arg("-o").arg(folder.path().join("program")));
+    }
+}
+
 pub(crate) fn a_fixture_has_the_states_of_a_trace_and_the_least_tolerance_of_its_truth() {
     let json = |arguments: &str| -> Value { serde_json::from_str(&stdout_of(arguments)).unwrap() };
     let found = json("fixture --scene spring --every 7 --seconds 1 --as json");

@@ -147,11 +147,18 @@ pub(crate) fn the_manuals_pipe_to_ffmpeg_makes_a_film() {
     let mut ffmpeg = ffmpeg.stdin(Stdio::piped()).spawn().unwrap();
     ffmpeg.stdin.take().expect("a pipe").write_all(&stream.stdout).unwrap();
     assert!(ffmpeg.wait().unwrap().success());
-    let probe = ["-v", "error", "-count_frames", "-show_entries", "stream=width,nb_read_frames"];
+    let probe = [
+        "-v",
+        "error",
+        "-count_frames",
+        "-show_entries",
+        "stream=width,color_space,color_transfer,color_primaries,nb_read_frames",
+    ];
     let of = ["-of", "csv=p=0"];
     let film = folder.path().join("clip.mp4");
     let said = asked("ffprobe", &[&probe[..], &of].concat(), &film);
-    assert_eq!(said.trim(), "160,12");
+    // Browsers guess the colours of a film without these three.
+    assert_eq!(said.trim(), "160,bt709,bt709,bt709,12");
 }
 
 pub(crate) fn standard_output_has_the_same_bytes_as_a_file() {

@@ -1,5 +1,6 @@
 //! The program beside other programs and things of a system: readers of its files, disks, pipes, a graphics device.
 
+pub(crate) mod assistant;
 #[cfg(target_os = "linux")]
 pub(crate) mod disks;
 pub(crate) mod fixture;

@@ -158,7 +158,7 @@ impl BeforeLine {
         place: impl Fn(&Sample) -> [f64; 2],
     ) -> Option<Self> {
         let before = studio.deck.run_before()?;
-        let samples = before.histories.get(body)?.samples();
+        let samples = before.histories.get(body)?.since(before.from_s);
         let places = samples.take_while(|sample| sample.t <= before.until_s);
         let places = places.map(|sample| (sample.t, place(sample)));
         let track = Track::of_places(studio.active(), false, places);
@@ -315,7 +315,7 @@ fn samples(studio: &Studio, body: usize) -> impl Iterator<Item = TruthSample> {
     let truth = &studio.race().truth().bodies()[body];
     let goes_on = truth.halted().is_none() && curve.samples().next_back().is_some_and(|s| s.t < t);
     let present = goes_on.then(|| curve.present(truth, t));
-    curve.samples().copied().chain(present)
+    curve.since(studio.deck.drawn_from_s()).copied().chain(present)
 }
 
 /// Returns a quantity at a sample as a point over time, or `None` if the quantity is not finite.

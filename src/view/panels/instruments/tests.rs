@@ -1,3 +1,5 @@
+use std::path::Path;
+
 use egui::{Event, Modifiers, MouseWheelUnit, Pos2, Rect, TouchPhase, Vec2, vec2};
 use rayon::prelude::*;
 
@@ -8,7 +10,9 @@ use crate::chart::PlotArea;
 use crate::measure::cloud::{CloudChoice, CloudWorker};
 use crate::panels;
 use crate::scene::{Action, SCENES, Scene};
-use crate::studio::{BOOK_FIGURES, RunCommand, StageCommand, ViewCommand, complete_clouds};
+use crate::studio::{
+    BOOK_FIGURES, RunCommand, StageCommand, ViewCommand, complete_clouds, open_file, reload_file,
+};
 use crate::tests::testing::{TestWindow, button};
 
 mod shown;
@@ -181,6 +185,40 @@ fn a_restart_at_another_tick_rate_keeps_the_run_before_as_a_curve() {
     assert_eq!(before(&studio), Some(("Explicit Euler".into(), 4.0)));
     studio.apply(StageCommand::Scene(0));
     assert_eq!(before(&studio), None);
+}
+
+#[test]
+fn a_changed_law_goes_on_in_the_plot_from_the_curve_before_it() {
+    let law = |force: &str| {
+        let text = format!(
+            "title = \"Swing\"\ntick_hz = 60\nseconds = 5\nmethods = [\"rk4\"]\n\n[[law]]\nname = \"swing\"\n\
+             [law.coordinates.x]\nacceleration = \"{force}\"\nstart = 1.0\n"
+        );
+        Scene::parse("a.toml", &text).unwrap()
+    };
+    let mut studio = Studio::new(law("-9 * x"));
+    open_file(&mut studio, Path::new("a.toml"), law("-9 * x"));
+    studio.apply(StageCommand::Instrument(Instrument::Motion));
+    (0..50).for_each(|_| studio.tick());
+    let at = studio.selected().lane.bodies()[0].stepper.q()[0];
+    reload_file(&mut studio, Path::new("a.toml"), law("-16 * x"));
+    (0..30).for_each(|_| studio.tick());
+    let set = plot_set_of(&studio, Detail::Samples).unwrap();
+    let (plot, t) = (&set.plots[0], 50.0 / 60.0);
+    let before = plot.before.as_ref().unwrap();
+    let (first, last) = (plot.tracks[0].places().next(), before.track.places().last());
+    assert_eq!(first.map(|place| place.2), Some([t, at]));
+    assert_eq!(last.map(|place| place.2), Some([t, at]));
+    assert_eq!(plot.exact[0].times[0], t);
+    // After another change, from the first to the second.
+    reload_file(&mut studio, Path::new("a.toml"), law("-25 * x"));
+    let set = plot_set_of(&studio, Detail::Samples).unwrap();
+    let before = set.plots[0].before.as_ref().unwrap();
+    assert_eq!(before.track.times(), Some((t, 80.0 / 60.0)));
+    // In the past are the motion and the truth of the present law alone.
+    studio.apply(RunCommand::Seek(20));
+    let set = plot_set_of(&studio, Detail::Samples).unwrap();
+    assert_eq!(set.plots[0].tracks[0].times(), Some((0.0, 20.0 / 60.0)));
 }
 
 #[test]
