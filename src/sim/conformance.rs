@@ -115,9 +115,9 @@ pub fn check(method: &Method) -> Conformance {
 }
 
 /// Returns the card of a method with measured values in place of its claims, which are the orders, evaluations,
-/// stability limits, symplectic, reversible and memory. The text for [`Method::about`] states the orders, how the energy
-/// of a spring changes, and the nearest built-in method. A claim that cannot be measured is left out, and an order that cannot be
-/// measured is 0.
+/// stability limits, symplectic, reversible and memory. Returns beside it the text of [`Method::about`], which states
+/// the orders, how the energy of a spring changes, and the nearest built-in method. A claim that cannot be measured is
+/// left out, and an order that cannot be measured is 0.
 pub fn measured(card: &'static Method) -> (Method, String) {
     let is_so = |found: Measured| found.is_ok_and(|(is_so, _)| is_so);
     let orders = orders_of(card);

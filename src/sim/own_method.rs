@@ -42,7 +42,7 @@ impl BuildIntegrator for OwnLines {
     fn build(&self, coordinates: usize, coupling: Coupling) -> Box<dyn AnyIntegrator> {
         match self {
             Self::Method(text) => Box::new(StepMethod::of(text.clone(), coordinates, coupling)),
-            Self::Rule(rule) => Box::new(StepRule::of(rule.clone())),
+            Self::Rule(rule) => Box::new(StepRule::of(rule.clone(), coordinates)),
         }
     }
 

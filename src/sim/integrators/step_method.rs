@@ -8,6 +8,7 @@ use super::prelude::*;
 use super::shared::newton::Newton;
 use super::shared::slopes::Slopes;
 use super::shared::stages::Stages;
+use super::step_rule::room;
 use crate::law::{General, Input, Request, StepRegisters, StepText};
 use crate::system::{Coupling, EngineSettings, Pursuit, Query};
 
@@ -31,9 +32,9 @@ impl StepMethod {
     pub(crate) fn of(lines: Arc<StepText>, coordinates: usize, coupling: Coupling) -> Self {
         let registers = lines.method_registers(coordinates);
         let like = vec![0.0; coordinates];
-        let solves = lines.uses(General::Solve);
+        let (pursuit, solves) = (room(coordinates), lines.uses(General::Solve));
         let newton = solves.then(|| Box::new(Newton::new(&like, coupling)));
-        Self { lines: Some((lines, registers)), newton, ..Self::without_lines(&like) }
+        Self { lines: Some((lines, registers)), newton, pursuit, ..Self::without_lines(&like) }
     }
 
     fn without_lines(like: &Vec<f64>) -> Self {
@@ -70,8 +71,8 @@ impl StepMethod {
             );
         }
         if let Some(order) = lines.law_order() {
-            system.query(t + h, Query::Target(pursuit));
-            let found = pursuit.as_ref().filter(|found| found.order == order);
+            let is_found = system.query(t + h, Query::Target(pursuit));
+            let found = pursuit.as_ref().filter(|found| is_found && found.order == order);
             let Some(Pursuit { target, rate, .. }) = found else {
                 return refused(
                     "its lines take the target and the rate of a body that follows one",

@@ -15,10 +15,15 @@ pub(crate) struct StepRule {
     pursuit: Option<Pursuit<Vec<f64>>>,
 }
 
+/// Returns room for a target of this many coordinates, so that no step allocates.
+pub(super) fn room(coordinates: usize) -> Option<Pursuit<Vec<f64>>> {
+    Some(Pursuit { target: vec![0.0; coordinates], rate: 0.0, order: 0, is_still: true })
+}
+
 impl StepRule {
-    pub(crate) fn of(rule: Arc<LinearRule>) -> Self {
+    pub(crate) fn of(rule: Arc<LinearRule>, coordinates: usize) -> Self {
         let registers = rule.text().registers();
-        Self { rule: Some((rule, registers)), pursuit: None }
+        Self { rule: Some((rule, registers)), pursuit: room(coordinates) }
     }
 }
 
@@ -32,7 +37,9 @@ impl<S: System<Vector = Vec<f64>>> Integrator<S> for StepRule {
         let Some((rule, registers)) = &mut self.rule else {
             return Err(StepFailure::Refused { reason: "it was built without its card" });
         };
-        system.query(t + h, Query::Target(&mut self.pursuit));
+        if !system.query(t + h, Query::Target(&mut self.pursuit)) {
+            self.pursuit = None;
+        }
         let target = |i: usize| self.pursuit.as_ref().map_or(0.0, |found| found.target[i]);
         let moved = q.components_mut().iter_mut().zip(v.components_mut());
         for (i, (q, v)) in moved.enumerate() {
