@@ -3,6 +3,7 @@
 //! `cargo bench --no-default-features --features lab --bench loops` prints milliseconds for each, and the cost of a loop of an
 //! engine in costs of an ideal one.
 
+use std::sync::Arc;
 use std::time::Instant;
 
 use regatta::loops::{ENGINES, LoopRun, POLICIES, PolicyCard, RefreshRate, trace_card};
@@ -14,7 +15,7 @@ const UNTIL_NS: i64 = 20_000_000_000;
 /// How often each loop runs; the quickest run counts.
 const TIMES: u32 = 5;
 
-fn quickest_ms(scene: &Scene, card: &'static PolicyCard) -> f64 {
+fn quickest_ms(scene: &Scene, card: &Arc<PolicyCard>) -> f64 {
     let trace = trace_card("steady-144").expect("a built-in trace").trace(RefreshRate::new(144, 1));
     let spec = LaneSpec::plain(method("rk4").expect("a built-in method"));
     let once = || {
@@ -32,7 +33,7 @@ fn main() {
     let mut means = Vec::new();
     for (name, cards) in [("ideal", &**POLICIES), ("of engines", &**ENGINES)] {
         let mut times: Vec<(f64, &str)> =
-            cards.iter().map(|card| (quickest_ms(&scene, card), card.id)).collect();
+            cards.iter().map(|card| (quickest_ms(&scene, card), &*card.id)).collect();
         times.sort_by(|a, b| b.0.total_cmp(&a.0));
         let sum: f64 = times.iter().map(|(ms, _)| ms).sum();
         let dear: Vec<_> = times.iter().take(3).map(|(ms, id)| format!("{id} {ms:.2}")).collect();

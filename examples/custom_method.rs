@@ -39,7 +39,7 @@ static RALSTON: Method = Method {
     order_with_drag: 2,
     evaluations: Some(2),
     source: "Ralston 1962",
-    custom: Some(custom_integrator::<Ralston<Vec<f64>>>),
+    custom: Some(&custom_integrator::<Ralston<Vec<f64>>>),
     ..Family::Explicit.card()
 };
 

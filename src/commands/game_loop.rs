@@ -3,6 +3,7 @@
 use std::collections::HashSet;
 use std::io;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 use std::sync::atomic::Ordering;
 
 use clap::Args;
@@ -93,7 +94,7 @@ pub(super) struct LoopArgs {
     /// `regatta list policies` has them, and `regatta list engine-loops` those of engines. A file that ends in .loop
     /// is a loop of your own. Give the option again for each, to compare them.
     #[arg(long = "policy", value_name = "ID|FILE", value_parser = LOOP_OR_FILE, hide_possible_values = true)]
-    policies: Vec<&'static PolicyCard>,
+    policies: Vec<Arc<PolicyCard>>,
 
     /// Compare all policies
     #[arg(long, conflicts_with = "policies")]
@@ -104,7 +105,7 @@ pub(super) struct LoopArgs {
     /// `regatta list engine-loops` has them.
     #[arg(long, value_name = "ID", value_parser = ENGINE, hide_possible_values = true)]
     #[arg(conflicts_with_all = ["policies", "all", "engines"])]
-    engine: Option<&'static PolicyCard>,
+    engine: Option<Arc<PolicyCard>>,
 
     /// Compare the loops of all engines
     #[arg(long, conflicts_with = "policies")]
@@ -296,8 +297,7 @@ pub(super) fn run(args: &LoopArgs) -> Result<(), Error> {
         let game_time = args.plot().map(|_| GameTime::around_longest(trace, until_ns));
         let stretch = Stretch { until_ns, game_time, camera: camera.clone() };
         let log = args.shown.as_ref().and_then(|_| ShownLog::of(trace, args.speed));
-        let cards: Vec<_> =
-            log.iter().map(|log| log.card).chain(policies.iter().copied()).collect();
+        let cards: Vec<_> = log.iter().map(|log| &log.card).chain(&policies).cloned().collect();
         let run = |card, frames: Option<&mut _>| {
             let (spec, stretch) = (LaneSpec::plain(args.method), stretch.clone());
             measure(&scene, spec, (card, limits), trace, stretch, &stop, frames)
@@ -315,7 +315,7 @@ pub(super) fn run(args: &LoopArgs) -> Result<(), Error> {
             advice::print_log(log, trace, scene.tick_hz);
         }
         let from = from + usize::from(log.is_some());
-        match (args.engine, &rows[from..]) {
+        match (&args.engine, &rows[from..]) {
             (Some(_), [row]) => engine::print_answer(row, limits),
             (_, rows) => advice::print_advice(rows, args.latency_ms, limits),
         }
@@ -335,7 +335,7 @@ pub(super) fn run(args: &LoopArgs) -> Result<(), Error> {
 impl LoopArgs {
     /// Returns the limits on the simulated part of a frame, or an error if `--max-ticks` is given for a policy that
     /// ignores it.
-    fn limits(&self, policies: &[&'static PolicyCard]) -> Result<FrameLimits, Error> {
+    fn limits(&self, policies: &[Arc<PolicyCard>]) -> Result<FrameLimits, Error> {
         let asked = policies.iter().filter(|_| !self.policies.is_empty() || self.engine.is_some());
         let lines = policies.iter().find(|card| card.is_from_outside());
         let (is_cut, is_kept) = (self.max_frame_ms.is_some(), self.excess == Excess::Keep);
@@ -346,7 +346,7 @@ impl LoopArgs {
             ("--excess", is_kept),
         ];
         if let (Some(card), Some((option, _))) = (lines, cut.iter().find(|(_, is_set)| *is_set)) {
-            let known = match card.constants {
+            let known = match &*card.constants {
                 "" => "write it into the lines".to_owned(),
                 constants => {
                     format!("its lines have --set {}", constants.replace(", ", ", --set "))
@@ -359,7 +359,7 @@ impl LoopArgs {
         }
         let free = asked.into_iter().find(|card| self.max_ticks.is_some() && !card.has_max_ticks);
         if let Some(card) = free {
-            let limited = POLICIES.iter().filter(|card| card.has_max_ticks).map(|card| card.id);
+            let limited = POLICIES.iter().filter(|card| card.has_max_ticks).map(|card| &*card.id);
             return Err(Error::mistake(format!(
                 "--max-ticks does nothing under {}, which does not limit ticks; leave it out, or take {}",
                 card.id,
@@ -402,18 +402,18 @@ impl LoopArgs {
     }
 
     /// Returns the requested policies without duplicates, with their settings.
-    fn policies(&self) -> Result<Vec<&'static PolicyCard>, Error> {
-        let mut policies: Vec<&'static PolicyCard> = match (&*self.policies, self.engine) {
-            ([], Some(engine)) => vec![engine],
+    fn policies(&self) -> Result<Vec<Arc<PolicyCard>>, Error> {
+        let mut policies: Vec<Arc<PolicyCard>> = match (&*self.policies, &self.engine) {
+            ([], Some(engine)) => vec![engine.clone()],
             ([], None) => {
                 let is_ideal = self.all || !self.engines;
                 let ideal = POLICIES.iter().filter(|card| is_ideal && (self.all || card.is_usual));
-                ideal.chain(ENGINES.iter().filter(|_| self.engines)).collect()
+                ideal.chain(ENGINES.iter().filter(|_| self.engines)).cloned().collect()
             }
             (policies, _) => policies.to_vec(),
         };
         let mut seen = HashSet::new();
-        policies.retain(|card| seen.insert(card.id));
+        policies.retain(|card| seen.insert(card.id.clone()));
         let tick_hz = self.tick_rate.tick_rate().map(|hz| ("hz".to_owned(), f64::from(hz)));
         let has = |card: &PolicyCard, name: &str| {
             let mut constants = card.constants.split(", ");
@@ -424,7 +424,7 @@ impl LoopArgs {
         {
             let known: Vec<&str> = policies
                 .iter()
-                .map(|card| card.constants)
+                .map(|card| &*card.constants)
                 .filter(|_| policies.iter().all(|card| card.is_from_outside()))
                 .collect();
             return Err(Error::mistake(match &*known.join(", ") {
@@ -434,8 +434,9 @@ impl LoopArgs {
                 known => format!("no line declares {name:?}; set one of {known}"),
             }));
         }
-        let set = |card: &'static PolicyCard| {
-            let settings = tick_hz.iter().chain(&self.settings).filter(|(name, _)| has(card, name));
+        let set = |card: Arc<PolicyCard>| {
+            let settings =
+                tick_hz.iter().chain(&self.settings).filter(|(name, _)| has(&card, name));
             let settings: Vec<_> = settings.cloned().collect();
             card.with_settings(&settings).unwrap_or(card)
         };

@@ -2,6 +2,7 @@
 
 use std::ffi::OsStr;
 use std::path::Path;
+use std::sync::Arc;
 
 use annotate_snippets::Renderer;
 use clap::builder::{PossibleValue, TypedValueParser};
@@ -38,7 +39,7 @@ pub(super) struct Id<T: 'static> {
 /// An ending of files, and the function that loads a value from such a file.
 type Loader<T> = (&'static str, fn(&Path) -> Result<T, Error>);
 
-impl<T: Copy> Id<T> {
+impl<T: Clone> Id<T> {
     pub(super) const fn new(thing: &'static str, all: fn() -> Vec<(String, T)>) -> Self {
         Self { thing, lists: &[], all, spellings: Vec::new, files: &[] }
     }
@@ -50,7 +51,7 @@ impl<T: Copy> Id<T> {
     pub(super) fn find(&self, id: &str) -> Result<T, String> {
         let all = (self.all)();
         if let Some((_, found)) = all.iter().find(|(known, _)| known == id) {
-            return Ok(*found);
+            return Ok(found.clone());
         }
         let ids: Vec<&str> = all.iter().map(|(id, _)| &**id).collect();
         let spellings = ids.iter().map(|id| (*id, *id)).chain((self.spellings)());
@@ -75,7 +76,7 @@ impl<T: Copy> Id<T> {
     }
 }
 
-impl<T: Copy + Send + Sync + 'static> TypedValueParser for Id<T> {
+impl<T: Clone + Send + Sync + 'static> TypedValueParser for Id<T> {
     type Value = T;
 
     fn parse_ref(
@@ -84,7 +85,7 @@ impl<T: Copy + Send + Sync + 'static> TypedValueParser for Id<T> {
         arg: Option<&clap::Arg>,
         value: &OsStr,
     ) -> Result<T, clap::Error> {
-        let (ids, path) = (*self, Path::new(value));
+        let (ids, path) = (self.clone(), Path::new(value));
         if let Some((_, load)) = self.files.iter().find(|(ending, _)| ends_in(path, ending)) {
             return load(path).map_err(refusal);
         }
@@ -120,19 +121,19 @@ pub(super) const IMPACT: Id<&Impact> = Id {
 };
 
 /// The ideal loops, and those of engines and libraries.
-pub(super) const LOOP: Id<&PolicyCard> = Id {
+pub(super) const LOOP: Id<Arc<PolicyCard>> = Id {
     lists: &["policies", "engine-loops"],
-    spellings: || loops().map(|card| (card.name, card.id)).collect(),
-    ..Id::new("policy", || loops().map(|card| (card.id.into(), card)).collect())
+    spellings: || loops().map(|card| (&*card.name, &*card.id)).collect(),
+    ..Id::new("policy", || loops().map(|card| (card.id.clone(), card.clone())).collect())
 };
 
-pub(super) const ENGINE: Id<&PolicyCard> = Id {
+pub(super) const ENGINE: Id<Arc<PolicyCard>> = Id {
     lists: &["engine-loops"],
-    spellings: || ENGINES.iter().map(|card| (card.name, card.id)).collect(),
-    ..Id::new("engine", || ENGINES.iter().map(|card| (card.id.into(), card)).collect())
+    spellings: || ENGINES.iter().map(|card| (&*card.name, &*card.id)).collect(),
+    ..Id::new("engine", || ENGINES.iter().map(|card| (card.id.clone(), card.clone())).collect())
 };
 
-fn loops() -> impl Iterator<Item = &'static PolicyCard> {
+fn loops() -> impl Iterator<Item = &'static Arc<PolicyCard>> {
     POLICIES.iter().chain(ENGINES.iter())
 }
 

@@ -294,7 +294,7 @@ const METRIC: &[Column<Metric>] = &[
     Column::shown("about", "ABOUT", |metric| json!(metric.about)),
 ];
 
-const POLICY: &[Column<PolicyCard>] = &[
+const POLICY: &[Column<Arc<PolicyCard>>] = &[
     Column::shown("id", "ID", |policy| json!(policy.id)),
     Column::new("name", |policy| json!(policy.name)),
     Column::shown("formula", "RULE", |policy| json!(policy.formula)),
@@ -308,15 +308,17 @@ const POLICY: &[Column<PolicyCard>] = &[
     Column::new("languages", |_| json!(Language::ALL.map(Language::id))),
 ];
 
-const ENGINE: &[Column<PolicyCard>] = &[
+const ENGINE: &[Column<Arc<PolicyCard>>] = &[
     Column::shown("id", "ID", |card| json!(card.id)),
     Column::shown("name", "NAME", |card| json!(card.name)),
-    Column::shown("version", "VERSION", |card| json!(card.engine.map(|engine| engine.version))),
+    Column::shown("version", "VERSION", |card| {
+        json!(card.engine.as_ref().map(|engine| &engine.version))
+    }),
     Column::shown("gives", "GIVES", |card| json!(card.formula)),
     Column::shown("known", "KNOWN", |card| json!(card.source)),
     Column::new("settings", |card| json!(card.constants)),
-    Column::new("caveat", |card| json!(card.engine.map(|engine| engine.caveat))),
-    Column::new("set", |card| json!(card.engine.map(|engine| engine.advice))),
+    Column::new("caveat", |card| json!(card.engine.as_ref().map(|engine| &engine.caveat))),
+    Column::new("set", |card| json!(card.engine.as_ref().map(|engine| &engine.advice))),
 ];
 
 const TRACE: &[Column<TraceCard>] = &[

@@ -1,6 +1,7 @@
 //! A person's own methods and loops, in files that end in `.step` and in `.loop`.
 
 use std::path::Path;
+use std::sync::Arc;
 
 use super::argument::brief;
 use super::error::Error;
@@ -14,7 +15,7 @@ use crate::sim::integrators::Method;
 pub(super) const METHOD_OR_FILE: Id<&Method> = Id { files: &[(STEP, load_method)], ..METHOD };
 
 /// Parser for the id of a game loop, or for the path of a `.loop` file.
-pub(super) const LOOP_OR_FILE: Id<&PolicyCard> = Id { files: &[(FRAMES, load_loop)], ..LOOP };
+pub(super) const LOOP_OR_FILE: Id<Arc<PolicyCard>> = Id { files: &[(FRAMES, load_loop)], ..LOOP };
 
 /// Ending of a file with the lines of a step, and of one with those of a loop.
 pub(super) const STEP: &str = "step";
@@ -32,7 +33,7 @@ pub(super) fn load_method(path: &Path) -> Result<&'static Method, Error> {
 }
 
 /// Loads a loop from a file, which it is named after.
-pub(super) fn load_loop(path: &Path) -> Result<&'static PolicyCard, Error> {
+pub(super) fn load_loop(path: &Path) -> Result<Arc<PolicyCard>, Error> {
     let (name, bytes) = read(path, "loop")?;
     let text = String::from_utf8(bytes)
         .map_err(|_| Error::mistake(format!("the loop {name} is not text; save it as UTF-8")))?;

@@ -1,5 +1,7 @@
 //! `regatta show`: prints a method or a game loop as code for a game.
 
+use std::sync::Arc;
+
 use clap::Args;
 use serde_json::json;
 
@@ -73,14 +75,14 @@ pub(super) struct ShowArgs {
 }
 
 /// The item to show.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 enum ShownItem {
     Method {
         method: &'static Method,
         /// The [other id](Method::also) of the method that the user gave, if it was not the method's own id.
         alias: Option<&'static str>,
     },
-    Loop(&'static PolicyCard),
+    Loop(Arc<PolicyCard>),
     Impact(&'static Impact),
 }
 
@@ -132,9 +134,9 @@ pub(super) fn run(args: &ShowArgs) -> Result<(), Error> {
     match args.format {
         TableFormat::Text => print(&code),
         TableFormat::Json => {
-            let (id, kind) = match args.asked {
+            let (id, kind) = match &args.asked {
                 ShownItem::Method { method, .. } => (method.id, "method"),
-                ShownItem::Loop(card) => (card.id, "loop"),
+                ShownItem::Loop(card) => (&*card.id, "loop"),
                 ShownItem::Impact(impact) => (impact.id, "impact"),
             };
             print_json(format!("{:#}\n", json!({"id": id, "kind": kind, "code": code})))
@@ -144,8 +146,8 @@ pub(super) fn run(args: &ShowArgs) -> Result<(), Error> {
 
 /// Returns the code of the item that is asked for.
 fn code(args: &ShowArgs) -> Result<String, Error> {
-    let (method, alias) = match args.asked {
-        ShownItem::Method { method, alias } => (method, alias),
+    let (method, alias) = match &args.asked {
+        ShownItem::Method { method, alias } => (*method, *alias),
         ShownItem::Loop(_) | ShownItem::Impact(_) if args.float => {
             return Err(Error::mistake(
                 "--float is for methods; a loop or a rule has no precision to choose",
@@ -193,7 +195,7 @@ fn loop_source(card: &PolicyCard, language: Option<CodeLanguage>) -> Result<Stri
         Some(CodeLanguage::Of(language)) => language,
         Some(CodeLanguage::Cpp) => Language::C,
     };
-    loop_code(card.id, lines, language).map_err(|reason| {
+    loop_code(&card.id, lines, language).map_err(|reason| {
         Error::mistake(format!("{} has no code in {language}: {reason}; give --as step", card.id))
     })
 }

@@ -77,7 +77,7 @@ impl NoLoop {
 
 /// Loops that were measured on the same trace.
 pub struct MeasuredLoops<'a> {
-    loops: Vec<(&'static PolicyCard, &'a PacingReport)>,
+    loops: Vec<(&'a PolicyCard, &'a PacingReport)>,
     tick_hz: TickRate,
     refresh: RefreshRate,
     origin_ms: f64,
@@ -87,7 +87,7 @@ impl<'a> MeasuredLoops<'a> {
     /// Collects loops at a tick rate, measured on one trace. If its frames begin and are displayed by clocks without
     /// a common origin, only differences of latencies have a meaning. Latencies then count from the smallest one.
     pub fn new(
-        loops: impl IntoIterator<Item = (&'static PolicyCard, &'a PacingReport)>,
+        loops: impl IntoIterator<Item = (&'a PolicyCard, &'a PacingReport)>,
         tick_hz: impl Into<TickRate>,
         refresh: RefreshRate,
         has_one_clock: bool,
@@ -164,7 +164,7 @@ impl<'a> MeasuredLoops<'a> {
         &self,
         none: NoLoop,
         latency_ms: f64,
-        name: fn(&PolicyCard) -> &'static str,
+        name: fn(&PolicyCard) -> &str,
     ) -> Vec<String> {
         let of_all = |what: &str| vec![format!("in every loop with a fixed tick {what}")];
         let (late, uneven) = match none {

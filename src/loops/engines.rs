@@ -1,6 +1,6 @@
 //! The loops of engines and libraries by name, and loops of a person's own, each a file of lines.
 
-use std::sync::LazyLock;
+use std::sync::{Arc, LazyLock};
 
 use super::policy::{Build, Engine, PolicyCard, RENDER_TICK};
 use crate::run::race::Interpolation;
@@ -14,7 +14,7 @@ macro_rules! engines {
 }
 
 /// Every engine and library whose loop is known, with its lines.
-pub static ENGINES: LazyLock<Vec<PolicyCard>> = LazyLock::new(|| {
+pub static ENGINES: LazyLock<Vec<Arc<PolicyCard>>> = LazyLock::new(|| {
     let files = engines![
         "arcade",
         "babylon-lockstep",
@@ -52,15 +52,15 @@ pub static ENGINES: LazyLock<Vec<PolicyCard>> = LazyLock::new(|| {
         "unity",
         "unreal",
     ];
-    let read = |text| LoopText::read(text).expect("a file that the tests read");
-    files.into_iter().map(|(id, text)| card(id, text, read(text))).collect()
+    let read = |(id, text)| own_loop(id, text).expect("a file that the tests read");
+    files.into_iter().map(read).collect()
 });
 
 /// Returns the card of the lines of a text under an id, with the claims of its remarks.
-pub(super) fn card(id: &'static str, text: &'static str, lines: LoopText) -> PolicyCard {
+pub(super) fn card(id: &str, text: &str, lines: LoopText) -> PolicyCard {
     let (shows, has_fixed_tick) = (lines.shows(), lines.has_fixed_tick());
-    let claim = |key| LoopText::claim(text, key);
-    let or = |key, other| if claim(key).is_empty() { other } else { claim(key) };
+    let claim = |key| LoopText::claim(text, key).to_owned();
+    let or = |key, other: &str| if claim(key).is_empty() { other.to_owned() } else { claim(key) };
     let constants = LoopText::constants(text).into_iter();
     let is_sign = |c: char| c.is_ascii_digit() || " .-*/".contains(c);
     let settings = constants.filter(|(_, _, value)| value.chars().all(is_sign));
@@ -70,20 +70,20 @@ pub(super) fn card(id: &'static str, text: &'static str, lines: LoopText) -> Pol
     let drawn = Interpolation::ALL.into_iter().find(|it| it.name() == claim("draws"));
     let plain = if shows && !has_render_tick { Interpolation::Linear } else { Interpolation::Raw };
     PolicyCard {
-        id,
-        name,
+        id: id.to_owned(),
         formula: claim("gives"),
         has_max_ticks: settings.iter().any(|setting| setting.starts_with("max_ticks=")),
-        constants: settings.join(", ").leak(),
+        constants: settings.join(", "),
         odd_frames: claim("caveat"),
-        users: or("users", name),
+        users: or("users", &name),
+        name,
         source: claim("known"),
         drawing: drawn.unwrap_or(plain),
         has_render_tick,
         has_fixed_tick,
         needs_exact_clock: has_fixed_tick && !shows && claim("steady").is_empty(),
         is_usual: !claim("usual").is_empty(),
-        build: Build::Lines(Box::leak(Box::new(lines))),
+        build: Build::Lines(Arc::new(lines)),
         engine: Some(Engine {
             version: claim("version"),
             caveat: claim("caveat"),
@@ -92,8 +92,7 @@ pub(super) fn card(id: &'static str, text: &'static str, lines: LoopText) -> Pol
     }
 }
 
-/// Returns the loop of a person's own lines under an id, such as the name of their file. It lives as long as the
-/// process.
+/// Returns the loop of a person's own lines under an id, such as the name of their file.
 ///
 /// # Errors
 /// The first fault of the lines.
@@ -105,14 +104,12 @@ pub(super) fn card(id: &'static str, text: &'static str, lines: LoopText) -> Pol
 /// assert!(raw.has_fixed_tick);
 /// assert!(own_loop("mine", "owed = dt").is_err());
 /// ```
-pub fn own_loop(id: &str, text: &str) -> Result<&'static PolicyCard, ExpressionFault> {
-    let lines = LoopText::read(text)?;
-    let card = card(id.to_owned().leak(), text.to_owned().leak(), lines);
-    Ok(Box::leak(Box::new(card)))
+pub fn own_loop(id: &str, text: &str) -> Result<Arc<PolicyCard>, ExpressionFault> {
+    Ok(Arc::new(card(id, text, LoopText::read(text)?)))
 }
 
 /// Returns the engine with this id.
-pub fn engine(id: &str) -> Option<&'static PolicyCard> {
+pub fn engine(id: &str) -> Option<&'static Arc<PolicyCard>> {
     ENGINES.iter().find(|card| card.id == id)
 }
 
@@ -122,21 +119,21 @@ impl PolicyCard {
     /// # Errors
     /// The name of the first unknown constant, with the names of the known ones.
     pub fn with_settings(
-        &'static self,
+        self: &Arc<Self>,
         settings: &[(String, f64)],
-    ) -> Result<&'static Self, (String, Vec<String>)> {
+    ) -> Result<Arc<Self>, (String, Vec<String>)> {
         let is_set = self.engine.is_some() && !settings.is_empty();
         let Some(text) = self.lines().filter(|_| is_set) else {
             return match settings.first() {
                 Some((name, _)) => Err((name.clone(), Vec::new())),
-                None => Ok(self),
+                None => Ok(self.clone()),
             };
         };
         let mut text = text.to_owned();
         for (name, value) in settings {
             text = LoopText::set(&text, name, *value).map_err(|known| (name.clone(), known))?;
         }
-        let card = own_loop(self.id, &text);
+        let card = own_loop(&self.id, &text);
         Ok(card.expect("a number in the place of another leaves the lines valid"))
     }
 }

@@ -1,6 +1,7 @@
 //! The response of a loop to one long frame among even ones.
 
 use std::fmt;
+use std::sync::Arc;
 
 use super::pacer::Pacer;
 use super::policy::{FrameLimits, PolicyCard};
@@ -28,7 +29,7 @@ pub struct Hitch {
 
 impl Hitch {
     /// Measures the response to a frame of `ms` milliseconds on a display.
-    pub fn of(card: &'static PolicyCard, base: TimeBase, limits: FrameLimits, ms: f64) -> Self {
+    pub fn of(card: &Arc<PolicyCard>, base: TimeBase, limits: FrameLimits, ms: f64) -> Self {
         let mut pacer = Pacer::limited(card, base, limits);
         let even_ms = base.milliseconds(base.refresh());
         let frame = |pacer: &mut Pacer, ms: f64| pacer.frame_in_ms((ms * 1e6).round() as i64, ms);

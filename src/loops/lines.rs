@@ -1,5 +1,7 @@
 //! A loop that is lines, which run once a frame.
 
+use std::sync::Arc;
+
 use super::policy::{FrameLimits, Steps};
 use super::time_base::{TimeBase, greatest_common_divisor};
 use crate::sim::law::{FrameInput, LoopText, StepRegisters};
@@ -21,7 +23,7 @@ const MAX_UNITS: i128 = 200_000;
 /// whole numbers of a unit.
 #[derive(Clone)]
 pub(super) struct Lines {
-    text: &'static LoopText,
+    text: Arc<LoopText>,
     registers: StepRegisters,
     base: TimeBase,
     /// The unit of whole numbers, in the unit of the base.
@@ -39,9 +41,9 @@ pub(super) struct Lines {
 
 impl Lines {
     /// Prepares the lines before the first frame. The limits apply to lines of whole numbers.
-    pub(super) fn new(text: &'static LoopText, base: TimeBase, limits: FrameLimits) -> Self {
+    pub(super) fn new(text: Arc<LoopText>, base: TimeBase, limits: FrameLimits) -> Self {
         let second = base.nanoseconds(SECOND_NS);
-        let unit = text.is_whole().then(|| unit(text, base));
+        let unit = text.is_whole().then(|| unit(&text, base));
         let time = |time: i128| match unit {
             Some(unit) => (time / unit) as f64,
             None => base.milliseconds(time),
@@ -68,12 +70,12 @@ impl Lines {
             }
         }
         Self {
+            has_fixed_tick: text.has_fixed_tick(),
             text,
             registers,
             base,
             unit,
             input,
-            has_fixed_tick: text.has_fixed_tick(),
             owed: 0,
             tick: base.tick(),
             passed: 0,

@@ -1,5 +1,7 @@
 //! The loop that a log shows: a column with the moment of each picture, replayed beside the loops.
 
+use std::sync::Arc;
+
 use super::engines::ENGINES;
 use super::pacer::Pacer;
 use super::policies::POLICIES;
@@ -25,16 +27,16 @@ const RATES: [u32; 6] = [30, 50, 60, 64, 100, 120];
 /// The moments that a log shows.
 pub struct ShownLog {
     /// The card of the replay.
-    pub card: &'static PolicyCard,
+    pub card: Arc<PolicyCard>,
     /// How the column was taken, in words.
     pub taken: String,
-    moments_ms: &'static [f64],
+    moments_ms: Arc<[f64]>,
 }
 
 /// The loop that comes nearest to a log.
 pub struct NearestLoop {
     /// Card of the loop.
-    pub card: &'static PolicyCard,
+    pub card: &'static Arc<PolicyCard>,
     /// Its tick rate, if it has ticks.
     pub tick_hz: Option<TickRate>,
     /// RMS difference of the moments shown, up to a constant, in milliseconds.
@@ -44,7 +46,7 @@ pub struct NearestLoop {
 impl ShownLog {
     /// Takes the column of a trace that shows moments, or positions that move at `speed` per second. Without a speed, a
     /// column that keeps pace with the frames is a clock in a known unit, and another one moves at its mean speed.
-    /// Returns `None` without such a column. The moments live as long as the process.
+    /// Returns `None` without such a column.
     pub fn of(trace: &FrameTrace, speed: Option<f64>) -> Option<Self> {
         let values = trace.shown();
         values.first()?;
@@ -64,19 +66,18 @@ impl ShownLog {
                 (mean, format!("shown moves at {} a second, as fitted", significant(mean, 6)))
             }
         };
-        let moments: Vec<f64> = values.iter().map(|value| 1e3 * value / per_s).collect();
-        let moments_ms: &'static [f64] = Vec::leak(moments);
-        let card = Box::leak(Box::new(PolicyCard {
-            id: LOG,
-            name: "The log",
-            formula: "the moment that the log shows",
-            odd_frames: "as the log",
-            users: "the game of the log",
-            source: "a column of the log",
-            build: Build::Replay(moments_ms),
+        let moments_ms: Arc<[f64]> = values.iter().map(|value| 1e3 * value / per_s).collect();
+        let card = Arc::new(PolicyCard {
+            id: LOG.into(),
+            name: "The log".into(),
+            formula: "the moment that the log shows".into(),
+            odd_frames: "as the log".into(),
+            users: "the game of the log".into(),
+            source: "a column of the log".into(),
+            build: Build::Replay(moments_ms.clone()),
             is_usual: false,
-            ..POLICIES[0]
-        }));
+            ..PolicyCard::clone(&POLICIES[0])
+        });
         Some(Self { card, taken, moments_ms })
     }
 
@@ -109,7 +110,7 @@ impl ShownLog {
     fn difference_ms(
         &self,
         trace: &FrameTrace,
-        card: &'static PolicyCard,
+        card: &Arc<PolicyCard>,
         base: TimeBase,
     ) -> (f64, Option<TickRate>) {
         let mut pacer = Pacer::new(card, base);
@@ -118,7 +119,7 @@ impl ShownLog {
         if trace.lead_ns().is_some() && card.is_from_outside() {
             pacer.frame_in_ms(0, 0.0);
         }
-        for shown_ms in self.moments_ms {
+        for shown_ms in &*self.moments_ms {
             let Some(frame) = frames.next(0) else { break };
             let ms = frames.duration_ms(frame);
             if before_ns.is_some() || card.is_from_outside() {

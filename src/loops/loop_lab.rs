@@ -37,7 +37,7 @@ pub const SLOWNESS: [u32; 6] = [1, 2, 4, 8, 16, 32];
 /// Initial slow-motion factor.
 pub const SLOWNESS_AT_FIRST: u32 = 8;
 /// The raw loop with a clock in floats, which runs beside the others where rounding decides on its ticks.
-static IN_FLOATS: LazyLock<&PolicyCard> = LazyLock::new(|| {
+static IN_FLOATS: LazyLock<Arc<PolicyCard>> = LazyLock::new(|| {
     let lines = include_str!("../../assets/loops/fixed-in-floats.loop");
     own_loop("fixed-in-floats", lines).expect("lines that a test runs")
 });
@@ -78,7 +78,7 @@ pub struct LoopLab {
     request: Arc<LoopRequest>,
     lanes: Vec<LoopLane>,
     /// The chosen engine or loop of a person, whose lane is the last.
-    engine: Option<&'static PolicyCard>,
+    engine: Option<Arc<PolicyCard>>,
     /// The recommended loop or, if there is none, the reason; `None` until all loops have run.
     advice: Option<Result<AdvisedLoop, NoLoop>>,
     /// Range of the exact first coordinate.
@@ -174,7 +174,7 @@ impl LoopLab {
             first: self.on_stage.clone(),
             engine: self.beside(),
         });
-        self.lanes = POLICIES.iter().chain(self.beside()).map(LoopLane::awaited).collect();
+        self.lanes = POLICIES.iter().cloned().chain(self.beside()).map(LoopLane::awaited).collect();
         self.on_stage.retain(|&index| index < self.lanes.len());
         if self.on_stage.is_empty() {
             self.on_stage.push(index_of(RAW));
@@ -189,9 +189,10 @@ impl LoopLab {
 
     /// Returns the loop that runs beside the ideal ones. Without a chosen engine it is the raw loop with a clock in
     /// floats, where ticks are as frequent as refreshes.
-    fn beside(&self) -> Option<&'static PolicyCard> {
+    fn beside(&self) -> Option<Arc<PolicyCard>> {
         let refresh = self.traces[self.trace].refresh();
-        self.engine.or_else(|| is_same_rate(self.scene.tick_hz, refresh).then(|| *IN_FLOATS))
+        let in_floats = || is_same_rate(self.scene.tick_hz, refresh).then(|| IN_FLOATS.clone());
+        self.engine.clone().or_else(in_floats)
     }
 
     /// Returns the request for a [`LoopWorker`]. Every choice replaces the request with a new one.
@@ -283,20 +284,20 @@ impl LoopLab {
         &self.traces[self.trace]
     }
     /// Returns the chosen engine, or loop of a person.
-    pub fn engine(&self) -> Option<&'static PolicyCard> {
-        self.engine
+    pub fn engine(&self) -> Option<&PolicyCard> {
+        self.engine.as_deref()
     }
 
     /// Runs the engine with this index in [`ENGINES`] beside the loops, and puts it on the stage.
     pub fn choose_engine(&mut self, index: usize) {
         if let Some(card) = ENGINES.get(index) {
-            self.run_beside(card);
+            self.run_beside(card.clone());
         }
     }
 
     /// Runs the loop of an engine or of a person beside the others, and puts it on the stage.
-    pub fn run_beside(&mut self, card: &'static PolicyCard) {
-        self.engine = Some(card);
+    pub fn run_beside(&mut self, card: Arc<PolicyCard>) {
+        self.engine = Some(card.clone());
         self.lanes.truncate(POLICIES.len());
         self.lanes.push(LoopLane::awaited(card));
         self.select(POLICIES.len());
@@ -316,7 +317,7 @@ impl LoopLab {
     /// recommended.
     pub fn none_advised(&self) -> Option<(NoLoop, Vec<String>)> {
         let none = self.advice?.err()?;
-        Some((none, self.measured()?.reasons(none, USUAL_LATENCY_MS, |card| card.name)))
+        Some((none, self.measured()?.reasons(none, USUAL_LATENCY_MS, |card| &card.name)))
     }
     /// Returns the index of the recommended loop, or of the loop that is nearest to a recommendation.
     fn best(&self) -> Option<usize> {
@@ -326,7 +327,8 @@ impl LoopLab {
     /// nearest to a recommendation. The raw loop in floats follows that without. The others have the order of
     /// [`POLICIES`].
     pub fn listed(&self) -> Vec<usize> {
-        let mut first: Vec<usize> = self.engine.map(|_| POLICIES.len()).into_iter().collect();
+        let mut first: Vec<usize> =
+            self.engine.as_ref().map(|_| POLICIES.len()).into_iter().collect();
         first.extend(self.best());
         if self.engine.is_none() && self.lanes.len() > POLICIES.len() {
             first.extend([index_of(RAW), POLICIES.len()]);
@@ -487,7 +489,7 @@ impl LoopLab {
     }
 
     /// Returns the card of the selected policy.
-    pub fn selected_card(&self) -> &'static PolicyCard {
+    pub fn selected_card(&self) -> &PolicyCard {
         self.lanes[self.selected].card()
     }
 }

@@ -1,5 +1,7 @@
 //! Runs a scene in a game loop over the frames of a trace.
 
+use std::sync::Arc;
+
 use super::metrics::{FrameRecord, PacingMeter, PacingReport};
 use super::paced_lane::PacedLane;
 use super::pacer::Pacer;
@@ -48,12 +50,7 @@ pub struct LoopRun {
 
 impl LoopRun {
     /// Prepares the run before its first frame, at the scene's tick rate.
-    pub fn new(
-        scene: &Scene,
-        spec: LaneSpec,
-        card: &'static PolicyCard,
-        trace: &FrameTrace,
-    ) -> Self {
+    pub fn new(scene: &Scene, spec: LaneSpec, card: &Arc<PolicyCard>, trace: &FrameTrace) -> Self {
         Self::limited(scene, spec, card, trace, FrameLimits::default())
     }
 
@@ -61,7 +58,7 @@ impl LoopRun {
     pub fn limited(
         scene: &Scene,
         spec: LaneSpec,
-        card: &'static PolicyCard,
+        card: &Arc<PolicyCard>,
         trace: &FrameTrace,
         limits: FrameLimits,
     ) -> Self {

@@ -3,6 +3,8 @@
 //! No time is lost in silence: the time of all frames is simulated, dropped or owed, and the pacer counts each. A loop
 //! that drops time runs in slow motion, and one that owes time is late.
 
+use std::sync::Arc;
+
 use super::lines::Lines;
 use super::policy::{Build, Excess, FrameLimits, LongFrame, PolicyCard, Steps};
 use super::replay::Replay;
@@ -20,7 +22,7 @@ enum Policy {
 /// [`TimeBase`].
 #[derive(Clone)]
 pub struct Pacer {
-    card: &'static PolicyCard,
+    card: Arc<PolicyCard>,
     base: TimeBase,
     policy: Policy,
     /// Maximum frame duration, if one is set.
@@ -38,20 +40,20 @@ pub struct Pacer {
 
 impl Pacer {
     /// Creates the loop before its first frame.
-    pub fn new(card: &'static PolicyCard, base: TimeBase) -> Self {
+    pub fn new(card: &Arc<PolicyCard>, base: TimeBase) -> Self {
         Self::limited(card, base, FrameLimits::default())
     }
 
     /// Like [`new`](Self::new), with limits on the work in a frame.
-    pub fn limited(card: &'static PolicyCard, base: TimeBase, limits: FrameLimits) -> Self {
-        let policy = match card.build {
-            Build::Replay(moments_ms) => Policy::Replay(Replay::new(moments_ms, base)),
-            Build::Lines(text) => Policy::Lines(Box::new(Lines::new(text, base, limits))),
+    pub fn limited(card: &Arc<PolicyCard>, base: TimeBase, limits: FrameLimits) -> Self {
+        let policy = match &card.build {
+            Build::Replay(moments_ms) => Policy::Replay(Replay::new(moments_ms.clone(), base)),
+            Build::Lines(text) => Policy::Lines(Box::new(Lines::new(text.clone(), base, limits))),
         };
         let longest = limits.max_frame_ms.map(|ms| base.nanoseconds(i64::from(ms) * 1_000_000));
         let FrameLimits { long_frame, excess, .. } = limits;
         Self {
-            card,
+            card: card.clone(),
             base,
             policy,
             longest,
@@ -66,8 +68,8 @@ impl Pacer {
     }
 
     /// Returns the card of the policy.
-    pub fn card(&self) -> &'static PolicyCard {
-        self.card
+    pub fn card(&self) -> &PolicyCard {
+        &self.card
     }
     /// Returns the loop's unit of time.
     pub fn base(&self) -> TimeBase {

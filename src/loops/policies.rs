@@ -1,6 +1,6 @@
 //! The table of ideal loops.
 
-use std::sync::LazyLock;
+use std::sync::{Arc, LazyLock};
 
 use super::engines::card;
 use super::policy::PolicyCard;
@@ -14,7 +14,7 @@ macro_rules! policies {
 }
 
 /// Every ideal loop, with the simplest first. The ten with a digit key come first.
-pub static POLICIES: LazyLock<Vec<PolicyCard>> = LazyLock::new(|| {
+pub static POLICIES: LazyLock<Vec<Arc<PolicyCard>>> = LazyLock::new(|| {
     let files = policies![
         "variable",
         "lockstep",
@@ -31,16 +31,18 @@ pub static POLICIES: LazyLock<Vec<PolicyCard>> = LazyLock::new(|| {
         "median",
         "slow-down",
     ];
-    let ideal = |(id, text)| PolicyCard {
-        constants: LoopText::claim(text, "constants"),
-        engine: None,
-        ..card(id, text, LoopText::read(text).expect("a file that the tests read"))
+    let ideal = |(id, text)| {
+        Arc::new(PolicyCard {
+            constants: LoopText::claim(text, "constants").to_owned(),
+            engine: None,
+            ..card(id, text, LoopText::read(text).expect("a file that the tests read"))
+        })
     };
     files.into_iter().map(ideal).collect()
 });
 
 /// Returns the policy with this id.
-pub fn policy(id: &str) -> Option<&'static PolicyCard> {
+pub fn policy(id: &str) -> Option<&'static Arc<PolicyCard>> {
     POLICIES.iter().find(|card| card.id == id)
 }
 

@@ -1,5 +1,7 @@
 //! The card of a game loop's policy, and the steps on which it decides.
 
+use std::sync::Arc;
+
 use crate::run::race::Interpolation;
 use crate::sim::law::LoopText;
 
@@ -61,22 +63,22 @@ pub struct FrameLimits {
 ///
 /// In formulas H is the tick, dt the duration of the last frame, R the refresh of the display, and α the fraction of
 /// a tick that is owed.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct PolicyCard {
     /// Name of the policy on the command line, `kebab-case`.
-    pub id: &'static str,
+    pub id: String,
     /// Name of the policy for people.
-    pub name: &'static str,
+    pub name: String,
     /// Rule of the policy in one line.
-    pub formula: &'static str,
+    pub formula: String,
     /// Constants of the policy; empty if there are none.
-    pub constants: &'static str,
+    pub constants: String,
     /// Response of the policy to a frame of no or negative time, and to one of ten seconds.
-    pub odd_frames: &'static str,
+    pub odd_frames: String,
     /// Engines and games that use the policy.
-    pub users: &'static str,
+    pub users: String,
     /// Source that describes the policy.
-    pub source: &'static str,
+    pub source: String,
     /// Interpolation of the picture between ticks.
     pub drawing: Interpolation,
     /// Whether the picture shows a copy of the bodies that is stepped to the moment to show and then discarded.
@@ -95,25 +97,25 @@ pub struct PolicyCard {
 }
 
 /// An engine or library, as far as its loop is concerned.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub struct Engine {
     /// Version of the engine.
-    pub version: &'static str,
+    pub version: String,
     /// A sentence on what to beware of.
-    pub caveat: &'static str,
+    pub caveat: String,
     /// What to set.
-    pub advice: &'static str,
+    pub advice: String,
 }
 
 /// The name of a picture of a copy, for people.
 pub(super) const RENDER_TICK: &str = "a copy stepped on";
 
 /// How a policy is made.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub(super) enum Build {
-    Lines(&'static LoopText),
+    Lines(Arc<LoopText>),
     /// The moments of a log, in milliseconds.
-    Replay(&'static [f64]),
+    Replay(Arc<[f64]>),
 }
 
 impl PolicyCard {
@@ -123,8 +125,8 @@ impl PolicyCard {
     }
 
     /// Returns the lines of the loop; `None` for a log.
-    pub fn lines(&self) -> Option<&'static str> {
-        match self.build {
+    pub fn lines(&self) -> Option<&str> {
+        match &self.build {
             Build::Lines(lines) => Some(lines.source()),
             Build::Replay(_) => None,
         }

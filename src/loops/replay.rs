@@ -1,18 +1,20 @@
 //! A log at work as a loop.
 
+use std::sync::Arc;
+
 use super::policy::Steps;
 use super::time_base::TimeBase;
 
 /// Steps by the difference of a log's moments.
-#[derive(Clone, Copy)]
+#[derive(Clone)]
 pub(super) struct Replay {
     base: TimeBase,
-    moments_ms: &'static [f64],
+    moments_ms: Arc<[f64]>,
     next: usize,
 }
 
 impl Replay {
-    pub(super) fn new(moments_ms: &'static [f64], base: TimeBase) -> Self {
+    pub(super) fn new(moments_ms: Arc<[f64]>, base: TimeBase) -> Self {
         Self { base, moments_ms, next: 0 }
     }
 

@@ -286,7 +286,8 @@ impl Scene {
     pub fn in_rust(&self) -> Option<&str> {
         let mut bodies =
             self.bodies.iter().filter(|body| matches!(body.kind.origin, Origin::Custom(_)));
-        let mut lanes = self.lanes.iter().filter(|lane| lane.method.custom.is_some());
+        let is_in_rust = |method: &Method| method.custom.is_some() && method.own_text().is_none();
+        let mut lanes = self.lanes.iter().filter(|lane| is_in_rust(lane.method));
         let body = bodies.next().map(|body| &*body.name);
         body.or_else(|| lanes.next().map(|lane| lane.method.id))
     }

@@ -115,10 +115,10 @@ pub fn check(method: &Method) -> Conformance {
 }
 
 /// Returns the card of a method with measured values in place of its claims, which are the orders, evaluations,
-/// stability limits, symplectic, reversible and memory. [`Method::about`] states the orders, how the energy of a spring
-/// changes, and the nearest built-in method. A claim that cannot be measured is left out, and an order that cannot be
-/// measured is 0.
-pub fn measured(card: &'static Method) -> Method {
+/// stability limits, symplectic, reversible and memory. Returns beside it the text of [`Method::about`], which states
+/// the orders, how the energy of a spring changes, and the nearest built-in method. A claim that cannot be measured is
+/// left out, and an order that cannot be measured is 0.
+pub fn measured(card: &'static Method) -> (Method, String) {
     let is_so = |found: Measured| found.is_ok_and(|(is_so, _)| is_so);
     let orders = orders_of(card);
     let [order, order_with_drag] =
@@ -137,8 +137,7 @@ pub fn measured(card: &'static Method) -> Method {
         similarity::energy(card),
         similarity::nearest(card, evaluations)
     );
-    Method {
-        about: about.leak(),
+    let measured = Method {
         family: if symplectic { Family::Symplectic } else { Family::Explicit },
         order,
         order_with_drag,
@@ -152,7 +151,8 @@ pub fn measured(card: &'static Method) -> Method {
         },
         restart: has_memory.then_some("by the first values of its memory"),
         ..*card
-    }
+    };
+    (measured, about)
 }
 
 /// Whether a method of the table has the id of `method`.

@@ -65,6 +65,7 @@ impl Contact {
         body.acceleration(t, &y.q, &y.v, a);
         self.wall.side * (a.components()[self.wall.coordinate] - self.wall.acceleration)
     }
+
     /// Returns the same, uncounted, for the truth.
     pub(super) fn true_push<B: Body>(self, body: &B, t: f64, y: &StateOf<B>) -> f64 {
         let a = body.acceleration_of(t, y, self.wall.coordinate);

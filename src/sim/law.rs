@@ -44,8 +44,8 @@ pub use step_text::{
     bracketed, remembers_place,
 };
 pub use step_text::{
-    Carried, Declares, General, Input, LinearRule, MAX_STEP_BYTES, MethodInput, OwnLines, Request,
-    RuleBody, StepCall, StepMap, StepRegisters, StepText,
+    Carried, Declares, General, Input, LinearRule, MAX_STEP_BYTES, MethodInput, Request, RuleBody,
+    StepCall, StepMap, StepRegisters, StepText,
 };
 pub use step_text::{FrameInput, FrameOutput, LoopText};
 pub use tape::MAX_OPERATIONS;

@@ -84,5 +84,7 @@ pub use tick_rate::TickRate;
 #[cfg(feature = "lab")]
 pub use {
     numerics::{golden_section, least_squares},
-    own_method::{MAX_OWN_ID_CHARS, check_own_id, own_method, own_method_id, own_rule},
+    own_method::{
+        MAX_OWN_ID_CHARS, OwnLines, check_own_id, linear_rule, own_method, own_method_id, own_rule,
+    },
 };

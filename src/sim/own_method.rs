@@ -4,17 +4,63 @@
 //! advice and refusals treat them as they do any other method. Equal lines are one method, which stays for the life of
 //! the process, because lanes name methods by `&'static`.
 
-use std::sync::{Mutex, PoisonError};
+use std::sync::{Arc, Mutex, PoisonError};
 
 use super::conformance;
-use super::integrators::{Family, METHODS, Method, Needs, Only, integrator};
-use super::law::{ExpressionFault, Input, LinearRule, OwnLines, Remedy, RuleBody, StepText};
+use super::integrators::step_method::StepMethod;
+use super::integrators::step_rule::StepRule;
+use super::integrators::{
+    AnyIntegrator, BuildIntegrator, Family, METHODS, Method, Needs, Only, integrator,
+};
+use super::law::{ExpressionFault, Input, LinearRule, Remedy, RuleBody, StepText};
 use super::state::State;
-use super::system::System;
+use super::system::{Coupling, System};
 use super::tick_rate::TickRate;
 
 /// The maximum number of characters in the id of an own method.
 pub const MAX_OWN_ID_CHARS: usize = 64;
+
+/// Lines of a person's own that step a body.
+#[derive(Debug)]
+pub enum OwnLines {
+    /// A method, which calls the acceleration.
+    Method(Arc<StepText>),
+    /// A rule, which is the whole motion.
+    Rule(Arc<LinearRule>),
+}
+
+impl OwnLines {
+    fn lines(&self) -> &StepText {
+        match self {
+            Self::Method(text) => text,
+            Self::Rule(rule) => rule.text(),
+        }
+    }
+}
+
+impl BuildIntegrator for OwnLines {
+    fn build(&self, coordinates: usize, coupling: Coupling) -> Box<dyn AnyIntegrator> {
+        match self {
+            Self::Method(text) => Box::new(StepMethod::of(text.clone(), coordinates, coupling)),
+            Self::Rule(rule) => Box::new(StepRule::of(rule.clone(), coordinates)),
+        }
+    }
+
+    fn text(&self) -> Option<&str> {
+        Some(self.lines().source())
+    }
+
+    fn fps(&self) -> Option<TickRate> {
+        match self {
+            Self::Method(_) => None,
+            Self::Rule(rule) => Some(rule.fps()),
+        }
+    }
+
+    fn numbers_kept(&self, n: usize) -> usize {
+        (self.lines().slots() + 3) * n
+    }
+}
 
 /// Every method made so far, so that equal lines under one id are one method.
 static KNOWN: Mutex<Vec<&'static Method>> = Mutex::new(Vec::new());
@@ -49,14 +95,15 @@ pub fn own_method(id: &str, text: &str) -> Result<&'static Method, ExpressionFau
             only,
             about: "a method by lines of one's own",
             source: "lines of one's own; this card is measured",
-            ..card(id, OwnLines::Method(read))
+            ..card(id, OwnLines::Method(Arc::new(read)))
         };
         // The problems of the measurements have no target and no joint.
         Ok(match only {
             Some(_) => made,
             None => {
-                let measured = conformance::measured(Box::leak(Box::new(made)));
-                Method { has_own_floor: has_floor(&measured), ..measured }
+                let (measured, about) = conformance::measured(Box::leak(Box::new(made)));
+                let has_own_floor = has_floor(&measured);
+                Method { about: about.leak(), has_own_floor, ..measured }
             }
         })
     })
@@ -117,12 +164,7 @@ fn only(text: &StepText) -> Option<Only> {
 /// ```
 pub fn own_rule(id: &str, text: &str, fps: TickRate) -> Result<&'static Method, ExpressionFault> {
     known_or(id, text, Some(fps), || {
-        let read = StepText::read_rule(text, "leave `fps` out: these lines are a method")?;
-        let rule = LinearRule::new(read, fps).map_err(|[what, remedy]| ExpressionFault {
-            span: 0..text.len(),
-            what,
-            remedy: Remedy::Words(remedy),
-        })?;
+        let rule = linear_rule(text, fps)?;
         let only = match rule.body() {
             RuleBody::Follower { .. } => Only {
                 needs: Needs::Law { order: 1 },
@@ -137,8 +179,21 @@ pub fn own_rule(id: &str, text: &str, fps: TickRate) -> Result<&'static Method, 
             order_with_drag: 0,
             evaluations: Some(u32::from(rule.takes_target())),
             only: Some(only),
-            ..card(id, OwnLines::Rule(rule))
+            ..card(id, OwnLines::Rule(Arc::new(rule)))
         })
+    })
+}
+
+/// Returns the rule of these lines, written for this many frames per second.
+///
+/// # Errors
+/// The same as for [`own_rule`].
+pub fn linear_rule(text: &str, fps: TickRate) -> Result<LinearRule, ExpressionFault> {
+    let read = StepText::read_rule(text, "leave `fps` out: these lines are a method")?;
+    LinearRule::new(read, fps).map_err(|[what, remedy]| ExpressionFault {
+        span: 0..text.len(),
+        what,
+        remedy: Remedy::Words(remedy),
     })
 }
 
@@ -168,12 +223,12 @@ fn known_or(
 
 /// Returns a card with the name and formula of these lines.
 fn card(id: &str, own: OwnLines) -> Method {
-    let lines = own.text().source().lines().map(str::trim);
+    let lines = own.lines().source().lines().map(str::trim);
     let lines = lines.filter(|line| !line.is_empty() && !line.starts_with('#'));
     let formula: Vec<&'static str> = lines.map(|line| &*line.to_owned().leak()).collect();
     let name: &'static str = id.to_owned().leak();
     let own: &'static OwnLines = Box::leak(Box::new(own));
-    Method { id: name, name, formula: formula.leak(), own: Some(own), ..Family::Explicit.card() }
+    Method { id: name, name, formula: formula.leak(), custom: Some(own), ..Family::Explicit.card() }
 }
 
 /// Returns the method id for a file whose name without its extension is `stem`. The id has the letters and digits of

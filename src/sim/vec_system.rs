@@ -79,9 +79,13 @@ impl<S: System<Vector: Vector>> System for VecSystem<'_, S> {
                 (self.system.query(t, query), force)
             }
             Query::Target(pursuit) => {
+                // The vector of the last answer serves again, so that a step need not allocate.
+                let mut to = pursuit.take().map(|found| found.target).unwrap_or_default();
                 *pursuit = Pursuit::of(self.system, t).map(|found| {
                     let Pursuit { target, rate, order, is_still } = found;
-                    Pursuit { target: target.components().to_vec(), rate, order, is_still }
+                    to.clear();
+                    to.extend_from_slice(target.components());
+                    Pursuit { target: to, rate, order, is_still }
                 });
                 return pursuit.is_some();
             }

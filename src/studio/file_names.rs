@@ -7,7 +7,7 @@ use crate::run::race::Mode;
 pub fn picture_file_name(studio: &Studio) -> String {
     let scene = &studio.scene().name;
     if let Some(loops) = studio.loop_lab() {
-        let (policy, ms) = (loops.selected_card().id, loops.now_ns() / 1_000_000);
+        let (policy, ms) = (&loops.selected_card().id, loops.now_ns() / 1_000_000);
         return format!("regatta-{scene}-loop-{policy}-at-{ms}-ms");
     }
     let method = match studio.mode() {

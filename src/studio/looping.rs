@@ -150,7 +150,7 @@ pub fn runs_beside(studio: &Studio, id: &str) -> bool {
 pub fn read_own_loop(
     path: &Path,
     bytes: Vec<u8>,
-) -> Result<(&'static PolicyCard, String), Vec<ShownError>> {
+) -> Result<(Arc<PolicyCard>, String), Vec<ShownError>> {
     let name = path.file_name().unwrap_or_default().to_string_lossy();
     let text = String::from_utf8(bytes)
         .map_err(|_| vec![format!("error: {name} is not text; save it as UTF-8").into()])?;
@@ -161,13 +161,13 @@ pub fn read_own_loop(
 }
 
 /// Runs a person's own loop beside the others in the loop lab, which opens if it is closed.
-pub fn open_own_loop(studio: &mut Studio, card: &'static PolicyCard) {
-    let told = if runs_beside(studio, card.id) { "reloaded" } else { "runs beside the others" };
+pub fn open_own_loop(studio: &mut Studio, card: Arc<PolicyCard>) {
+    let told = if runs_beside(studio, &card.id) { "reloaded" } else { "runs beside the others" };
     if studio.loop_lab().is_none() {
         open_loop_lab(studio);
     }
     if let Some(loops) = studio.loop_lab_mut() {
-        loops.run_beside(card);
+        loops.run_beside(card.clone());
         loops.end_opening();
         studio.viewer.dialog.take_if(|dialog| matches!(dialog, Dialog::Mistakes { .. }));
         studio.viewer.set_notice(format!("{}: {told}", card.id));

@@ -102,7 +102,7 @@ mod tests {
         let mut studio =
             typed("memory owed = 0\nowed += dt\nwhile owed >= H { tick 1; owed -= H }");
         studio.apply(ViewCommand::RunLines);
-        let engine = |studio: &Studio| studio.loop_lab().unwrap().engine().unwrap();
+        let engine = |studio: &Studio| studio.loop_lab().unwrap().engine().unwrap().clone();
         assert!(engine(&studio).has_fixed_tick && studio.viewer.dialog().is_none());
         studio.apply(ViewCommand::AskForLines);
         studio.apply(ViewCommand::TypeLines("tick 1 of dtt".into()));

@@ -57,7 +57,7 @@ enum FileContent {
     /// A lane with a person's own method, and its text.
     Lane(LaneSpec, String),
     /// A person's own loop, and its text.
-    Loop(&'static PolicyCard, String),
+    Loop(Arc<PolicyCard>, String),
     /// The comparison with the run, and the recording.
     Compared(Box<(Comparison, Scene)>),
 }
@@ -379,7 +379,8 @@ mod tests {
         assert!(studio.loop_lab().is_none());
         let watched = show(&mut studio, "tick 1", false);
         assert_eq!(watched, Some((path.clone(), "tick 1".to_owned())));
-        let own = |studio: &Studio| studio.loop_lab().and_then(|loops| loops.engine()).unwrap();
+        let own =
+            |studio: &Studio| studio.loop_lab().and_then(|loops| loops.engine()).unwrap().clone();
         let first = own(&studio);
         assert!(first.id == "mine" && first.has_fixed_tick);
         let lab = studio.loop_lab().unwrap();
@@ -387,7 +388,7 @@ mod tests {
         show(&mut studio, "tick 1 of dtt", true);
         let Some(Dialog::Mistakes { report, .. }) = studio.viewer.dialog() else { panic!() };
         assert!(report[0].message.starts_with("mine.loop:1:11: unknown name `dtt`"), "{report:?}");
-        assert!(std::ptr::eq(own(&studio), first));
+        assert_eq!(own(&studio).lines(), first.lines());
         show(&mut studio, "tick 1 of dt", true);
         assert!(studio.viewer.dialog().is_none() && !own(&studio).has_fixed_tick);
         assert_eq!(studio.viewer.notice.as_deref(), Some("mine: reloaded"));

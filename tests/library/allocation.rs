@@ -11,10 +11,10 @@ use regatta::sim::bodies::{
     Body as _, Follow, Grid, NetLayout, NetPlan, Pin, Ship, Spring, Tumble, net_kind,
 };
 use regatta::sim::integrators::{
-    GENERAL_METHODS, ImplicitMidpoint, Integrator, METHODS, Method, Rk4, StepFailure,
-    custom_integrator, integrator, method,
+    BuildIntegrator, GENERAL_METHODS, ImplicitMidpoint, Integrator, METHODS, Method, Rk4,
+    StepFailure, custom_integrator, integrator, method,
 };
-use regatta::sim::{Elementwise, Solver, State, Stepper, System, Vector};
+use regatta::sim::{Elementwise, Solver, State, Stepper, System, Vector, own_method, own_rule};
 use regatta::studio::{StageCommand, Studio};
 
 use super::conformance::systems::{Sparse, fresh, problem, springs};
@@ -110,10 +110,14 @@ fn no_method_allocates_in_hundreds_of_steps_on_any_vector() {
 
 #[test]
 fn custom_methods_and_bodies_do_not_allocate() {
-    let card = |own| Method { id: "mine", custom: Some(own), ..*method("rk4").expect("a method") };
+    let card = |own: &'static dyn BuildIntegrator| Method {
+        id: "mine",
+        custom: Some(own),
+        ..*method("rk4").expect("a method")
+    };
     let mine = [
-        card(custom_integrator::<Rk4<Vec<f64>>>),
-        Method { id: "mine-too", ..card(custom_integrator::<ImplicitMidpoint<Vec<f64>>>) },
+        card(&custom_integrator::<Rk4<Vec<f64>>>),
+        Method { id: "mine-too", ..card(&custom_integrator::<ImplicitMidpoint<Vec<f64>>>) },
     ];
     all_step_without_allocating(&mine, &springs(400.0, 1.0), &glam::DVec2::ONE, integrator);
     let spring = Spring { mass: 1.0, stiffness: 400.0, damping: 1.0, x0: 1.0, v0: 0.0, kick: 1.0 };
@@ -130,7 +134,10 @@ fn no_follower_allocates_in_hundreds_of_steps() {
     let special = &METHODS[GENERAL_METHODS.len()..];
     let engines = special.iter().position(Method::is_engine).expect("engines after the followers");
     let (first, second) = special[..engines].split_at(3);
-    for (order, methods) in [(1, first), (2, second)] {
+    let rule = own_rule("chase", "x += (target - x) * 20 * dt", 30.into()).unwrap();
+    let decay = own_method("decay", method("exponential-decay").unwrap().code).unwrap();
+    let own = [rule, decay].map(|own| (1, std::slice::from_ref(own)));
+    for (order, methods) in [(1, first), (2, second)].into_iter().chain(own) {
         let camera = Follow { order, rate: 5.0, step: 1.0, ..Follow::default() };
         all_step_without_allocating(methods, &problem(camera), &0.0, |it, _| fresh(it));
     }

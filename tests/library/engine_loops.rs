@@ -1,5 +1,7 @@
 //! The loops of engines make the ticks that the engines made, and loops of lines are read or refused.
 
+use std::sync::Arc;
+
 use regatta::loops::{
     ENGINES, FrameLimits, Hitch, POLICIES, Pacer, PolicyCard, RefreshRate, Steps, TimeBase, engine,
     own_loop,
@@ -34,7 +36,7 @@ fn moments(trace: &str, frames: usize) -> Vec<f64> {
 }
 
 /// The steps of a loop in every frame of a trace, the first of which starts the clock.
-fn steps(card: &'static PolicyCard, moments: &[f64]) -> Vec<Steps> {
+fn steps(card: &Arc<PolicyCard>, moments: &[f64]) -> Vec<Steps> {
     let mut pacer = Pacer::new(card, base());
     let first = pacer.frame_in_ms(0, 0.0);
     let later = moments.windows(2).map(|pair| {
@@ -87,19 +89,25 @@ fn every_engine_makes_the_ticks_of_its_recording() {
 #[test]
 fn every_engine_has_a_version_a_caveat_and_advice() {
     for card in ENGINES.iter() {
-        let engine = card.engine.unwrap();
-        let all =
-            [card.name, card.formula, card.source, engine.version, engine.caveat, engine.advice];
+        let engine = card.engine.as_ref().unwrap();
+        let all = [
+            &card.name,
+            &card.formula,
+            &card.source,
+            &engine.version,
+            &engine.caveat,
+            &engine.advice,
+        ];
         assert!(all.iter().all(|text| !text.is_empty()), "{}: {all:?}", card.id);
         assert!(
-            ["run", "read", "run and read", "documented"].contains(&card.source),
+            ["run", "read", "run and read", "documented"].contains(&&*card.source),
             "{}",
             card.id
         );
         let is_id = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '-';
         assert!(card.id.chars().all(is_id), "{}", card.id);
         assert_eq!(ENGINES.iter().filter(|other| other.id == card.id).count(), 1, "{}", card.id);
-        assert!(regatta::loops::policy(card.id).is_none(), "{}", card.id);
+        assert!(regatta::loops::policy(&card.id).is_none(), "{}", card.id);
     }
 }
 
@@ -108,7 +116,7 @@ fn ticks(text: &str, durations: &[f64]) -> Vec<u32> {
     let card = own_loop("mine", text).unwrap_or_else(|fault| panic!("{text}: {fault:?}"));
     let mut moments = vec![1000.0];
     durations.iter().for_each(|ms| moments.push(moments[moments.len() - 1] + ms));
-    steps(card, &moments)[1..].iter().map(|steps| steps.count).collect()
+    steps(&card, &moments)[1..].iter().map(|steps| steps.count).collect()
 }
 
 #[test]
@@ -121,7 +129,7 @@ fn lines_make_ticks_in_loops_and_remember_in_arrays() {
     assert_eq!(ticks(by_refresh, &[16.0, 33.0, 1.0]), [1, 2, 0]);
     let card = own_loop("mine", "tick 2 of dt / 2").unwrap();
     assert!(!card.has_fixed_tick && own_loop("mine", fixed).unwrap().has_fixed_tick);
-    let made = steps(card, &[1000.0, 1020.0, 1010.0]);
+    let made = steps(&card, &[1000.0, 1020.0, 1010.0]);
     assert_eq!(
         made.iter().map(|it| base().milliseconds(it.span)).collect::<Vec<_>>(),
         [0.0, 20.0, -10.0]
@@ -135,12 +143,12 @@ fn lines_make_ticks_in_loops_and_remember_in_arrays() {
 #[test]
 fn the_lines_of_every_ideal_loop_can_be_given_back() {
     for card in POLICIES.iter() {
-        let own = own_loop(card.id, card.lines().unwrap()).unwrap();
+        let own = own_loop(&card.id, card.lines().unwrap()).unwrap();
         assert_eq!(own.drawing_name(), card.drawing_name());
         assert_eq!(own.has_fixed_tick, card.has_fixed_tick, "{}", card.id);
         assert_eq!(own.needs_exact_clock, card.needs_exact_clock, "{}", card.id);
         let base = TimeBase::new(64, RefreshRate::new(2997, 50));
-        let [mut known, mut found] = [card, own].map(|card| Pacer::new(card, base));
+        let [mut known, mut found] = [card, &own].map(|card| Pacer::new(card, base));
         for n in 0..3000_i64 {
             let ns = match n % 97 {
                 5 => 900_000_000,
@@ -154,7 +162,7 @@ fn the_lines_of_every_ideal_loop_can_be_given_back() {
     // A constant can be set where the lines are a person's own.
     let fixed = own_loop("mine", POLICIES[4].lines().unwrap()).unwrap();
     let two = fixed.with_settings(&[("max_ticks".into(), 2.0)]).unwrap();
-    assert_eq!(Pacer::new(two, base()).frame(100_000_000).count, 2);
+    assert_eq!(Pacer::new(&two, base()).frame(100_000_000).count, 2);
 }
 
 #[test]
@@ -195,8 +203,8 @@ fn a_hitch_is_a_jump_a_loss_or_fast_forward() {
 fn a_constant_of_an_engine_can_be_set() {
     let babylon = engine("babylon-lockstep").unwrap();
     let wide = babylon.with_settings(&[("max_ticks".into(), 15.0)]).unwrap();
-    let count = |card| steps(card, &[1000.0, 1200.0])[1].count;
-    assert_eq!((count(babylon), count(wide)), (4, 12));
+    let count = |card: &_| steps(card, &[1000.0, 1200.0])[1].count;
+    assert_eq!((count(babylon), count(&wide)), (4, 12));
     let (name, known) = babylon.with_settings(&[("most".into(), 1.0)]).unwrap_err();
     assert!(name == "most" && known.contains(&"max_ticks".to_owned()), "{known:?}");
 }
@@ -206,14 +214,14 @@ fn the_manual_lists_every_engine_and_its_own_loop_runs() {
     let manual = |id: &str| regatta::manual::chapter(id).unwrap().text;
     let mut gives: Vec<&str> = Vec::new();
     for card in ENGINES.iter() {
-        if !gives.contains(&card.formula) {
-            gives.push(card.formula);
+        if !gives.contains(&&*card.formula) {
+            gives.push(&card.formula);
         }
     }
     let mut rows = String::new();
     for formula in gives {
         let of = ENGINES.iter().filter(|card| card.formula == formula);
-        let of = of.map(|card| format!("`{}` {}", card.id, card.engine.unwrap().version));
+        let of = of.map(|card| format!("`{}` {}", card.id, card.engine.as_ref().unwrap().version));
         rows += &format!("| {formula} | {} |\n", of.collect::<Vec<_>>().join(", "));
     }
     assert!(

@@ -360,7 +360,7 @@ fn the_fixed_loop_judders_by_12_ms_and_whole_refreshes_do_not() {
         .on_stage()
         .iter()
         .map(|&index| &loops.lanes()[index])
-        .map(|lane| (lane.card().id, lane.report().unwrap().animation_error_rms_ms.unwrap()))
+        .map(|lane| (&*lane.card().id, lane.report().unwrap().animation_error_rms_ms.unwrap()))
         .collect();
     let [("fixed", fixed), ("whole-refresh", whole)] = shown[..] else { panic!("{shown:?}") };
     assert!((11.5..12.5).contains(&fixed) && whole < 1e-6, "{shown:?}");

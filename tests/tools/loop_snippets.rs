@@ -5,6 +5,7 @@ use std::fs;
 use std::io::Write as _;
 use std::path::PathBuf;
 use std::process::{Command, Stdio};
+use std::sync::Arc;
 
 use regatta::loops::{ENGINES, POLICIES, Pacer, PolicyCard, RefreshRate, TimeBase, own_loop};
 use regatta::tools::source_code::{Language, loop_code};
@@ -81,7 +82,7 @@ fn traces(rates: Rates) -> [Vec<i64>; 3] {
 }
 
 /// The results of the loop in the table.
-fn known(card: &'static PolicyCard, rates: Rates, trace: &[i64]) -> Vec<Answer> {
+fn known(card: &Arc<PolicyCard>, rates: Rates, trace: &[i64]) -> Vec<Answer> {
     let base = rates.base();
     let mut pacer = Pacer::new(card, base);
     let each = |&duration_ns: &i64| {
@@ -95,10 +96,10 @@ fn known(card: &'static PolicyCard, rates: Rates, trace: &[i64]) -> Vec<Answer> 
 }
 
 /// Checks printed code's answers against the table's loop.
-fn same(card: &'static PolicyCard, rates: Rates, trace: &[i64], found: &[Answer]) {
+fn same(card: &Arc<PolicyCard>, rates: Rates, trace: &[i64], found: &[Answer]) {
     // Seconds are rounded, and nanoseconds too where a step is divided or counted in them. The errors add up, except
     // for the debt that `median` repays.
-    let (step_s, total_s) = match card.id {
+    let (step_s, total_s) = match &*card.id {
         "median" => (2e-8, 2e-7),
         "clamped-variable" => (1e-9, 1e-9 * trace.len() as f64),
         _ if card.engine.is_some() => (1e-9, 1e-6),
@@ -161,9 +162,9 @@ tick floor(past[floor(end)] / 4) of user
 if frame > 5 { show frame / user }
 ";
 
-fn cards() -> impl Iterator<Item = &'static PolicyCard> {
+fn cards() -> impl Iterator<Item = Arc<PolicyCard>> {
     let odd = own_loop("odd", ODD).unwrap();
-    POLICIES.iter().chain(ENGINES.iter()).chain([odd])
+    POLICIES.iter().chain(ENGINES.iter()).cloned().chain([odd])
 }
 
 impl Driver {
@@ -172,7 +173,7 @@ impl Driver {
     fn program(&self) -> String {
         let (mut loops, mut calls) = (String::new(), String::new());
         for card in cards() {
-            let code = loop_code(card.id, card.lines().unwrap(), self.language).unwrap();
+            let code = loop_code(&card.id, card.lines().unwrap(), self.language).unwrap();
             let says = |words: &str| code.contains(words);
             let mut rates = Vec::new();
             if says(" tick_hz: ") {
@@ -238,7 +239,7 @@ impl Driver {
                     let tick_s = 1.0 / f64::from(rates.tick_hz);
                     let tick_s = if card.engine.is_some() { 0.0 } else { tick_s };
                     let answers = lines.by_ref().take(trace.len()).map(|line| answer(line, tick_s));
-                    same(card, rates, trace, &answers.collect::<Vec<_>>());
+                    same(&card, rates, trace, &answers.collect::<Vec<_>>());
                 }
             }
         }
@@ -395,7 +396,7 @@ pub(crate) fn the_lua_loops_match_the_tables() {
 
 pub(crate) fn every_loop_is_printed_in_gdscript_with_indented_blocks() {
     for card in cards() {
-        let code = loop_code(card.id, card.lines().unwrap(), Language::GdScript).unwrap();
+        let code = loop_code(&card.id, card.lines().unwrap(), Language::GdScript).unwrap();
         let lines: Vec<&str> = code.lines().filter(|line| !line.trim().is_empty()).collect();
         let depth = |line: &str| line.len() - line.trim_start_matches('\t').len();
         for pair in lines.windows(2).filter(|pair| !pair[0].trim_start().starts_with('#')) {

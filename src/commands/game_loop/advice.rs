@@ -12,7 +12,7 @@ pub(super) fn print_advice(rows: &[Measured], latency_ms: f64, limits: FrameLimi
     let Some(first) = rows.first() else { return };
     let trace =
         format!("{} ({} Hz display, {:.3} Hz ticks)", first.trace, first.refresh, first.tick_hz);
-    let measured = rows.iter().map(|row| (row.card, &row.report));
+    let measured = rows.iter().map(|row| (&*row.card, &row.report));
     let loops = MeasuredLoops::new(measured, first.tick_hz, first.refresh, first.has_one_clock);
     // The message does not speak of a subset if all policies were measured, just as in the window.
     let are_all = rows.len() == POLICIES.len();
@@ -29,7 +29,7 @@ pub(super) fn print_advice(rows: &[Measured], latency_ms: f64, limits: FrameLimi
             }
         }
         Err(none) => {
-            let mut clauses = loops.reasons(none, latency_ms, |card| card.id);
+            let mut clauses = loops.reasons(none, latency_ms, |card| &card.id);
             let remedy = match none {
                 NoLoop::TooFewFrames => None,
                 NoLoop::MotionLost => Some("give more --tick-hz or another --method".into()),
@@ -103,7 +103,7 @@ fn advice_text(row: &Measured, latency_ms: Option<f64>, limits: FrameLimits) -> 
         limits.max_frame_ms.map(|ms| format!("at most {ms} ms")),
     ];
     let set: Vec<String> = set.into_iter().flatten().collect();
-    let constants = match (set.is_empty(), row.card.constants) {
+    let constants = match (set.is_empty(), &*row.card.constants) {
         (true, "") => String::new(),
         (true, constants) => format!("; {constants}"),
         (false, _) => format!("; {} a frame, as set; the rest is dropped", set.join(" and ")),

@@ -47,7 +47,7 @@ pub(super) fn figure(scene: &Scene, rows: &[Measured]) -> Figure {
 
 fn curve(index: usize, row: &Measured, dots: f32, points: Vec<[f64; 2]>) -> FigureCurve {
     let (colour, dash) = Theme::Dark.loop_style(index);
-    FigureCurve { name: row.card.id.into(), colour, dash, dots, points }
+    FigureCurve { name: row.card.id.clone(), colour, dash, dots, points }
 }
 
 /// Returns the chart of the displayed moment against the moment of display. The display holds each picture until the
@@ -179,7 +179,7 @@ fn outside<'r>(rows: impl Iterator<Item = &'r Measured>) -> String {
 fn note(rows: &[Measured]) -> String {
     let mut ranked: Vec<(&str, f64)> = rows
         .iter()
-        .filter_map(|row| Some((row.card.id, row.report.animation_error_rms_ms?)))
+        .filter_map(|row| Some((&*row.card.id, row.report.animation_error_rms_ms?)))
         .collect();
     ranked.sort_by(|(_, one), (_, other)| one.total_cmp(other));
     let listed = ranked.iter().map(|(id, error)| format!("{id} {}", round(*error, 3)));

@@ -12,7 +12,7 @@ const REAL_TIME_MS: f64 = 40.0;
 
 /// Prints whether a loop runs at real time, its response to hitches, and what to set.
 pub(super) fn print_answer(row: &Measured, limits: FrameLimits) {
-    let Some(engine) = row.card.engine else { return };
+    let Some(engine) = &row.card.engine else { return };
     let speed = row.report.speed_percent.unwrap_or(100.0);
     let pace = match speed {
         _ if (row.report.owed_ms + row.report.dropped_ms).abs() <= REAL_TIME_MS => {
@@ -24,7 +24,7 @@ pub(super) fn print_answer(row: &Measured, limits: FrameLimits) {
     print_status(&format!("{} {} on {}: {pace}", row.card.name, engine.version, row.trace));
     let base = TimeBase::new(row.tick_hz, row.refresh);
     let answers = HITCHES
-        .map(|(ms, said)| format!("a hitch of {said}: {}", Hitch::of(row.card, base, limits, ms)));
+        .map(|(ms, said)| format!("a hitch of {said}: {}", Hitch::of(&row.card, base, limits, ms)));
     print_status(&answers.join("; "));
     print_status(&format!("set: {} ({})", engine.advice, engine.caveat));
 }

@@ -1,6 +1,7 @@
 //! Measurement of a loop over a trace.
 
 use std::io;
+use std::sync::Arc;
 
 use serde_json::{Value, json};
 
@@ -18,7 +19,7 @@ const DRAWN: usize = 30;
 
 /// A row of the table, which is the measurement of a policy.
 pub(super) struct Measured {
-    pub(super) card: &'static PolicyCard,
+    pub(super) card: Arc<PolicyCard>,
     pub(super) trace: String,
     pub(super) refresh: RefreshRate,
     pub(super) tick_hz: TickRate,
@@ -52,7 +53,7 @@ pub(super) struct Stretch {
 pub(super) fn measure(
     scene: &Scene,
     spec: LaneSpec,
-    (card, limits): (&'static PolicyCard, FrameLimits),
+    (card, limits): (Arc<PolicyCard>, FrameLimits),
     trace: &FrameTrace,
     Stretch { until_ns, mut game_time, mut camera }: Stretch,
     stop: &dyn Fn() -> bool,
@@ -60,7 +61,7 @@ pub(super) fn measure(
 ) -> io::Result<Measured> {
     let (mut drawn, mut written) = (Vec::new(), Ok(()));
     let name = trace.name();
-    let run = LoopRun::limited(scene, spec, card, trace, limits);
+    let run = LoopRun::limited(scene, spec, &card, trace, limits);
     let report = run.measure(until_ns, stop, |run, record| {
         if let Some(game_time) = &mut game_time {
             game_time.frame(run, record);
@@ -76,7 +77,8 @@ pub(super) fn measure(
         }
         if let (Some(frames), Ok(())) = (&mut frames, &written) {
             let place = camera.as_ref().map(|camera| json!(camera.place()));
-            let cells: Vec<Value> = row(name, card, run, record).into_iter().chain(place).collect();
+            let cells: Vec<Value> =
+                row(name, &card, run, record).into_iter().chain(place).collect();
             written = frames.row(&cells);
         }
     });

@@ -1,5 +1,7 @@
 //! The frames of the body in one loop, and the metrics of a frame.
 
+use std::sync::Arc;
+
 use crate::run::past::Energies;
 use crate::run::race::LaneBody;
 use crate::run::{Scale, Unit};
@@ -12,7 +14,7 @@ const MAX_S: f64 = 20.0;
 
 /// The body in one loop, with all frames once the loop has run.
 pub struct LoopLane {
-    card: &'static PolicyCard,
+    card: Arc<PolicyCard>,
     frames: Vec<LoopFrame>,
     game_time: GameTime,
     report: Option<PacingReport>,
@@ -66,7 +68,7 @@ impl LoopFrame {
 
 impl LoopLane {
     /// Creates a placeholder without frames for a loop that has not run yet.
-    pub(super) fn awaited(card: &'static PolicyCard) -> Self {
+    pub(super) fn awaited(card: Arc<PolicyCard>) -> Self {
         Self { card, frames: Vec::new(), game_time: GameTime::default(), report: None }
     }
 
@@ -74,7 +76,7 @@ impl LoopLane {
     pub(super) fn run(
         scene: &Scene,
         method: &'static Method,
-        card: &'static PolicyCard,
+        card: Arc<PolicyCard>,
         trace: &FrameTrace,
         stop: &dyn Fn() -> bool,
     ) -> Self {
@@ -82,7 +84,7 @@ impl LoopLane {
         let mut ticks = 0;
         let until_ns = (scene.seconds.clamp(MIN_RUN_S, MAX_S) * 1e9) as i64;
         let mut game_time = GameTime::around_longest(trace, until_ns);
-        let run = LoopRun::new(scene, LaneSpec::plain(method), card, trace);
+        let run = LoopRun::new(scene, LaneSpec::plain(method), &card, trace);
         let report = run.measure(until_ns, stop, |run, record| {
             ticks += record.steps.count;
             game_time.frame(run, record);
@@ -102,8 +104,8 @@ impl LoopLane {
     }
 
     /// Returns the card of the loop's policy.
-    pub fn card(&self) -> &'static PolicyCard {
-        self.card
+    pub fn card(&self) -> &PolicyCard {
+        &self.card
     }
     /// Returns the displayed frames, in order.
     pub fn frames(&self) -> &[LoopFrame] {

@@ -18,7 +18,7 @@ pub struct LoopRequest {
     /// Indices of the loops in [`POLICIES`] that run first.
     pub(super) first: Vec<usize>,
     /// The engine that runs beside them.
-    pub(super) engine: Option<&'static PolicyCard>,
+    pub(super) engine: Option<Arc<PolicyCard>>,
 }
 
 impl LoopRequest {
@@ -67,8 +67,8 @@ impl LoopWorker {
     pub fn work(&mut self, stop: &dyn Fn() -> bool) -> Option<FoundLoop> {
         let (request, index) = (self.request.as_ref()?, *self.left.front()?);
         let LoopRequest { scene, method, trace, engine, .. } = &**request;
-        let card = POLICIES.get(index).or(*engine)?;
-        let lane = LoopLane::run(scene, method, card, trace, stop);
+        let card = POLICIES.get(index).or(engine.as_ref())?;
+        let lane = LoopLane::run(scene, method, card.clone(), trace, stop);
         if stop() {
             return None;
         }

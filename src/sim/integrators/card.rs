@@ -3,14 +3,12 @@
 //! A method sets its name, source, orders and evaluations, and inherits the other fields from its family unless they
 //! differ.
 
-use super::custom_method::AnyIntegrator;
+use super::custom_method::BuildIntegrator;
 use super::engine_bounce::EngineBounce;
 use super::free_spin::FreeSpin;
 use super::integrator::Tolerance;
 use super::joint_mode::JointMode;
 use crate::TickRate;
-#[cfg(feature = "lab")]
-use crate::law::OwnLines;
 use crate::system::{BodyClass, Coupling};
 
 /// The families of methods, for menus and tables.
@@ -299,12 +297,9 @@ pub struct Method {
     /// The publication of the method. For an engine, it is the version and the files from which the formula was read.
     pub source: &'static str,
     /// Builds a custom method, which is not in [`METHODS`](super::METHODS), by
-    /// [`custom_integrator`](super::custom_integrator) of the method's type. `None` for methods of the table.
-    pub custom: Option<fn(usize) -> Box<dyn AnyIntegrator>>,
-    /// The lines of a method or a rule that a person wrote, which is not in [`METHODS`](super::METHODS) either; see
-    /// [`own_method`](crate::own_method()) and [`own_rule`](crate::own_rule()).
-    #[cfg(feature = "lab")]
-    pub own: Option<&'static OwnLines>,
+    /// [`custom_integrator`](super::custom_integrator) of the method's type, or by a person's own lines. `None` for
+    /// methods of the table.
+    pub custom: Option<&'static dyn BuildIntegrator>,
 }
 
 impl Method {
@@ -336,26 +331,19 @@ impl Method {
         spellings.map(|spelling| (spelling, self.id))
     }
 
-    /// Whether the method is not in the table, because it is [custom](Method::custom) or made of a person's own lines.
+    /// Whether the method is [custom](Method::custom), and not in the table.
     pub fn is_from_outside(&self) -> bool {
-        self.custom.is_some() || self.own_text().is_some()
+        self.custom.is_some()
     }
 
     /// Returns the text of a method or a rule made of a person's own lines; `None` for any other.
     pub fn own_text(&self) -> Option<&'static str> {
-        #[cfg(feature = "lab")]
-        return self.own.map(|own| own.text().source());
-        #[cfg(not(feature = "lab"))]
-        None
+        self.custom?.text()
     }
 
     /// Returns the frame rate for which a rule was written; `None` for a method.
     pub fn rule_fps(&self) -> Option<TickRate> {
-        #[cfg(feature = "lab")]
-        if let Some(OwnLines::Rule(rule)) = self.own {
-            return Some(rule.fps());
-        }
-        None
+        self.custom?.fps()
     }
 
     /// Whether this is a published listing with its faults, which advice never recommends.
@@ -370,15 +358,13 @@ impl Method {
     }
 
     /// Returns an upper bound on how many numbers the method keeps on the heap besides its own vectors, for `n`
-    /// coordinates with this coupling. A custom method counts as one with sixteen vectors.
+    /// coordinates with this coupling.
     pub(crate) fn numbers_kept(&self, n: usize, coupling: Coupling) -> usize {
-        #[cfg(feature = "lab")]
-        if let Some(own) = self.own {
-            return (own.text().slots() + 3) * n;
+        if let Some(custom) = self.custom {
+            return custom.numbers_kept(n);
         }
         let matrices = self.matrices as usize;
         match coupling.reach(n) {
-            _ if self.custom.is_some() => 16 * (n + 3),
             // The exponential of a small matrix is a full matrix.
             Some(_) if self.family == Family::Linearised && n <= 32 => matrices * (n + 2) * (n + 2),
             // The band of the factored matrix is one and a half times as wide as the band of the matrix.
@@ -466,8 +452,6 @@ const PLAIN: Method = Method {
     follower: None,
     source: "",
     custom: None,
-    #[cfg(feature = "lab")]
-    own: None,
 };
 
 /// The [caveat](Method::caveat) of explicit methods of order 2. With one step, a swing grows by `|1 + i z - z²/2|`.

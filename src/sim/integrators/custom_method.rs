@@ -1,10 +1,14 @@
 //! Methods behind a pointer, compiled once for each vector type. Custom methods are in no table, so that their cards
 //! build them.
 
+use std::fmt;
+use std::panic::RefUnwindSafe;
+
 use super::failure::{StepFailure, Stepped};
 use super::integrator::{Integrator, Override};
+use crate::TickRate;
 use crate::state::{State, Vector};
-use crate::system::{StateOf, System};
+use crate::system::{Coupling, StateOf, System};
 use crate::vec_system::{Scratch, VecSystem};
 
 /// A system of any type. A custom method steps systems with their coordinates in a `Vec`.
@@ -22,7 +26,38 @@ impl<V, I: for<'a> Integrator<AnySystem<'a, V>> + Clone + 'static> AnyIntegrator
     }
 }
 
-/// Builds the integrator `I` for this number of coordinates. This function is the value of
+/// Builds the integrators of a custom method. [`custom_integrator`] does, and so do the lines of a person.
+pub trait BuildIntegrator: Send + Sync + RefUnwindSafe {
+    /// Returns an integrator for this number of coordinates of systems with this coupling.
+    fn build(&self, coordinates: usize, coupling: Coupling) -> Box<dyn AnyIntegrator>;
+    /// Returns a person's own lines, if the method is made of lines.
+    fn text(&self) -> Option<&str> {
+        None
+    }
+    /// Returns the frame rate for which the lines were written, if they are a rule.
+    fn fps(&self) -> Option<TickRate> {
+        None
+    }
+    /// Returns an upper bound on how many numbers the method keeps on the heap besides its own vectors, for `n`
+    /// coordinates. By default the method counts as one with sixteen vectors.
+    fn numbers_kept(&self, n: usize) -> usize {
+        16 * (n + 3)
+    }
+}
+
+impl<F: Fn(usize) -> Box<dyn AnyIntegrator> + Send + Sync + RefUnwindSafe> BuildIntegrator for F {
+    fn build(&self, coordinates: usize, _coupling: Coupling) -> Box<dyn AnyIntegrator> {
+        self(coordinates)
+    }
+}
+
+impl fmt::Debug for dyn BuildIntegrator {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.text().unwrap_or("a custom method"))
+    }
+}
+
+/// Builds the integrator `I` for this number of coordinates. A reference to this function is the value of
 /// [`Method::custom`](super::Method::custom) on a custom method's card:
 ///
 /// ```
@@ -55,7 +90,7 @@ impl<V, I: for<'a> Integrator<AnySystem<'a, V>> + Clone + 'static> AnyIntegrator
 ///     order: 1,
 ///     order_with_drag: 1,
 ///     evaluations: Some(1),
-///     custom: Some(custom_integrator::<Plain<Vec<f64>>>),
+///     custom: Some(&custom_integrator::<Plain<Vec<f64>>>),
 ///     ..Family::Explicit.card()
 /// };
 /// assert_eq!(PLAIN.stability_limit, Some(0.0));
@@ -79,11 +114,11 @@ pub(super) struct CustomMethod<V> {
 }
 
 impl<V: Vector> CustomMethod<V> {
-    /// Returns the method that `build` returns, for coordinates shaped `like` these.
-    pub(super) fn new(build: fn(usize) -> Box<dyn AnyIntegrator>, like: &V) -> Self {
+    /// Returns the method that `custom` builds, for coordinates shaped `like` these, with this coupling.
+    pub(super) fn new(custom: &dyn BuildIntegrator, like: &V, coupling: Coupling) -> Self {
         let zero = vec![0.0; like.components().len()];
         Self {
-            integrator: build(zero.len()),
+            integrator: custom.build(zero.len(), coupling),
             state: State { q: zero.clone(), v: zero },
             scratch: Scratch::new(like),
         }
@@ -93,15 +128,19 @@ impl<V: Vector> CustomMethod<V> {
 impl<S: System<Vector: Vector>> Integrator<S> for CustomMethod<S::Vector> {
     /// Refuses every step, because only the card knows which method to build.
     fn new(like: &S::Vector) -> Self {
-        Self::new(custom_integrator::<Unfit>, like)
+        Self::new(&custom_integrator::<Unfit>, like, Coupling::All)
     }
 
     fn step(&mut self, system: &S, t: f64, h: f64, state: &mut StateOf<S>) -> Stepped {
+        self.steps(system, t, h, 1, state)
+    }
+
+    fn steps(&mut self, system: &S, t: f64, h: f64, n: u32, state: &mut StateOf<S>) -> Stepped {
         let Self { integrator, state: many, scratch } = self;
         many.q.copy_from_slice(state.q.components());
         many.v.copy_from_slice(state.v.components());
         let system: AnySystem<'_> = &VecSystem::new(system, scratch);
-        let stepped = integrator.step(&system, t, h, many);
+        let stepped = integrator.steps(&system, t, h, n, many);
         state.q.components_mut().copy_from_slice(&many.q);
         state.v.components_mut().copy_from_slice(&many.v);
         stepped

@@ -99,9 +99,9 @@ mod split_3;
 mod split_5;
 mod ssp_rk3;
 #[cfg(feature = "lab")]
-mod step_method;
+pub(crate) mod step_method;
 #[cfg(feature = "lab")]
-mod step_rule;
+pub(crate) mod step_rule;
 mod stormer_verlet;
 mod tr_bdf2;
 mod velocity_verlet;
@@ -112,7 +112,7 @@ pub use card::{
     Carded, DAMPING_RATIOS, Engine, Family, FollowerQuantity, FollowerSetting, Method, Needs, Only,
     Substeps,
 };
-pub use custom_method::{AnyIntegrator, AnySystem, custom_integrator};
+pub use custom_method::{AnyIntegrator, AnySystem, BuildIntegrator, custom_integrator};
 pub use engine::{EngineMethod, EngineRule, EngineTick};
 pub use engine_bounce::EngineBounce;
 pub use failure::{StepFailure, Stepped};
@@ -240,18 +240,8 @@ macro_rules! methods {
             coupling: Coupling,
             construct: C,
         ) -> C::Output {
-            if let Some(build) = method.custom {
-                return construct.of(|like| CustomMethod::new(build, like));
-            }
-            #[cfg(feature = "lab")]
-            match method.own {
-                Some(crate::law::OwnLines::Method(lines)) => {
-                    return construct.of(|like| step_method::StepMethod::of(lines, like, coupling));
-                }
-                Some(crate::law::OwnLines::Rule(rule)) => {
-                    return construct.of(|_| step_rule::StepRule::of(rule));
-                }
-                None => {}
+            if let Some(custom) = method.custom {
+                return construct.of(|like| CustomMethod::new(custom, like, coupling));
             }
             $(if const { refusal::<S, C>(&$file::CARD).is_none() } {
                 if method.id == $file::CARD.id {

@@ -1,44 +1,57 @@
 //! A method made of a person's own lines, which are read at run time.
 
+use std::sync::Arc;
+
 use super::failure::StepFailure;
 use super::integrator::Override;
 use super::prelude::*;
 use super::shared::newton::Newton;
 use super::shared::slopes::Slopes;
 use super::shared::stages::Stages;
+use super::step_rule::room;
 use crate::law::{General, Input, Request, StepRegisters, StepText};
-use crate::system::{EngineSettings, Pursuit};
+use crate::system::{Coupling, EngineSettings, Pursuit, Query};
 
 /// A method made of lines that call the acceleration, or take the target or the settings of their body.
 #[derive(Clone)]
-pub(super) struct StepMethod<V> {
+pub(crate) struct StepMethod {
     /// The lines, and the numbers that they carry. If `None`, the method refuses every step.
-    lines: Option<(&'static StepText, StepRegisters)>,
+    lines: Option<(Arc<StepText>, StepRegisters)>,
     /// K and c of a joint, if they override the body's.
     joint: Option<[f64; 2]>,
-    at: State<V>,
-    along: State<V>,
-    a: V,
-    newton: Option<Box<Newton<V, 1>>>,
-    slopes: Slopes<V>,
+    pursuit: Option<Pursuit<Vec<f64>>>,
+    at: State<Vec<f64>>,
+    along: State<Vec<f64>>,
+    a: Vec<f64>,
+    newton: Option<Box<Newton<Vec<f64>, 1>>>,
+    slopes: Slopes<Vec<f64>>,
 }
 
-impl<V: Vector> StepMethod<V> {
-    /// Returns the method of these lines, for coordinates shaped `like` these, with this coupling.
-    pub(super) fn of(lines: &'static StepText, like: &V, coupling: Coupling) -> Self {
-        let registers = lines.method_registers(like.components().len());
-        let solves = lines.uses(General::Solve);
-        let newton = solves.then(|| Box::new(Newton::new(like, coupling)));
-        Self { lines: Some((lines, registers)), newton, ..Self::without_lines(like) }
+impl StepMethod {
+    /// Returns the method of these lines for this number of coordinates, with this coupling.
+    pub(crate) fn of(lines: Arc<StepText>, coordinates: usize, coupling: Coupling) -> Self {
+        let registers = lines.method_registers(coordinates);
+        let like = vec![0.0; coordinates];
+        let (pursuit, solves) = (room(coordinates), lines.uses(General::Solve));
+        let newton = solves.then(|| Box::new(Newton::new(&like, coupling)));
+        Self { lines: Some((lines, registers)), newton, pursuit, ..Self::without_lines(&like) }
     }
 
-    fn without_lines(like: &V) -> Self {
-        let state = State { q: like.clone(), v: like.clone() };
-        let (a, slopes) = (like.clone(), Slopes::new(like));
-        Self { lines: None, joint: None, at: state.clone(), along: state, a, newton: None, slopes }
+    fn without_lines(like: &Vec<f64>) -> Self {
+        let at = State { q: like.clone(), v: like.clone() };
+        Self {
+            lines: None,
+            joint: None,
+            pursuit: None,
+            along: at.clone(),
+            at,
+            a: like.clone(),
+            newton: None,
+            slopes: Slopes::new(like),
+        }
     }
 
-    fn advance<S: System<Vector = V>>(
+    fn advance<S: System<Vector = Vec<f64>>>(
         &mut self,
         system: &S,
         t: f64,
@@ -47,7 +60,7 @@ impl<V: Vector> StepMethod<V> {
         state: &mut StateOf<S>,
     ) -> Stepped {
         let refused = |reason| Err(StepFailure::Refused { reason });
-        let Self { lines, joint, at, along, a, newton, slopes } = self;
+        let Self { lines, joint, pursuit, at, along, a, newton, slopes } = self;
         let Some((lines, registers)) = lines else {
             return refused("it was built without its card");
         };
@@ -58,15 +71,16 @@ impl<V: Vector> StepMethod<V> {
             );
         }
         if let Some(order) = lines.law_order() {
-            let pursuit = Pursuit::of(system, t + h).filter(|found| found.order == order);
-            let Some(Pursuit { target, rate, .. }) = pursuit else {
+            let is_found = system.query(t + h, Query::Target(pursuit));
+            let found = pursuit.as_ref().filter(|found| is_found && found.order == order);
+            let Some(Pursuit { target, rate, .. }) = found else {
                 return refused(
                     "its lines take the target and the rate of a body that follows one",
                 );
             };
-            for (i, target) in target.components().iter().enumerate() {
+            for (i, target) in target.iter().enumerate() {
                 lines.set_target(registers, i, *target);
-                lines.set_input(registers, Input::Rate, i, rate);
+                lines.set_input(registers, Input::Rate, i, *rate);
             }
         }
         if lines.takes(Input::Force) {
@@ -126,7 +140,7 @@ impl<V: Vector> StepMethod<V> {
     }
 }
 
-impl<S: System<Vector: Vector>> Integrator<S> for StepMethod<S::Vector> {
+impl<S: System<Vector = Vec<f64>>> Integrator<S> for StepMethod {
     /// Refuses every step, because only the card knows the lines.
     fn new(like: &S::Vector) -> Self {
         Self::without_lines(like)

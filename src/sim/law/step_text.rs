@@ -184,25 +184,6 @@ pub struct StepRegisters {
     masks: Vec<bool>,
 }
 
-/// Lines of a person's own that step a body.
-#[derive(Debug)]
-pub enum OwnLines {
-    /// A method, which calls the acceleration.
-    Method(StepText),
-    /// A rule, which is the whole motion.
-    Rule(LinearRule),
-}
-
-impl OwnLines {
-    /// Returns the lines.
-    pub fn text(&self) -> &StepText {
-        match self {
-            Self::Method(text) => text,
-            Self::Rule(rule) => rule.text(),
-        }
-    }
-}
-
 impl StepText {
     /// Parses a text.
     ///

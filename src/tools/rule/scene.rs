@@ -4,9 +4,9 @@
 use super::Rule;
 use crate::scene::{Scene, SceneErrors, own_table, tick_rate_line};
 use crate::sim::TickRate;
-use crate::sim::law::{ExpressionFault, OwnLines, Remedy, RuleBody};
+use crate::sim::law::{ExpressionFault, Remedy, RuleBody};
 use crate::sim::number::significant;
-use crate::sim::{check_own_id, own_method_id, own_rule};
+use crate::sim::{check_own_id, linear_rule, own_method_id, own_rule};
 
 /// Number of frames of each lane per tick. A tick lasts two frames of the author. So the second lane runs at the
 /// author's rate, the first one at half that rate and the last one at twice that rate.
@@ -36,7 +36,7 @@ pub fn rule_scene(file: &str, text: &str, fps: TickRate) -> Result<Scene, SceneE
         refused([format!("the rule is called by its file, and {what}"), remedy])
     })?;
     let method = own_rule(&id, text, fps).map_err(of_text)?;
-    let Some(OwnLines::Rule(rule)) = method.own else { unreachable!("a rule has its lines") };
+    let rule = linear_rule(text, fps).map_err(of_text)?;
     let seen = Rule::read(text, fps.hz()).map_err(of_text)?.motion_at(fps.hz());
     let tick_hz = fps.scaled(1, 2);
     let body = rule.body();

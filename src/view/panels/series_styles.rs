@@ -77,7 +77,7 @@ impl SeriesStyles {
         let series = loops.lanes().iter().enumerate().map(|(index, lane)| {
             let card = lane.card();
             let (rgba, dash) = palette.theme.loop_style(index);
-            SeriesStyle { id: card.id.into(), name: card.name.into(), colour: colour(rgba), dash }
+            SeriesStyle { id: card.id.clone(), name: card.name.clone(), colour: colour(rgba), dash }
         });
         Self {
             series: series.collect(),

@@ -3,8 +3,8 @@
 
 use regatta::conformance::check;
 use regatta::sim::integrators::{
-    AdamsBashforth2, BogackiShampine32, Family, GENERAL_METHODS, ImplicitMidpoint, METHODS, Method,
-    Rk4, Tolerance, VelocityVerlet, custom_integrator, method,
+    AdamsBashforth2, BogackiShampine32, BuildIntegrator, Family, GENERAL_METHODS, ImplicitMidpoint,
+    METHODS, Method, Rk4, Tolerance, VelocityVerlet, custom_integrator, method,
 };
 
 #[test]
@@ -73,16 +73,16 @@ fn exactly_the_changed_claims_are_detected() {
 
 #[test]
 fn a_custom_method_is_tested_against_its_card() {
-    let own = |id: &str, new_id: &'static str, own| {
+    let own = |id: &str, new_id: &'static str, own: &'static dyn BuildIntegrator| {
         let card = method(id).expect("a method");
         Method { id: new_id, custom: Some(own), ..*card }
     };
     let mine = [
-        own("rk4", "my-rk4", custom_integrator::<Rk4<Vec<f64>>>),
-        own("velocity-verlet", "my-verlet", custom_integrator::<VelocityVerlet<Vec<f64>>>),
-        own("adams-bashforth-2", "my-ab2", custom_integrator::<AdamsBashforth2<Vec<f64>>>),
-        own("bogacki-shampine-32", "my-bs32", custom_integrator::<BogackiShampine32<Vec<f64>>>),
-        own("implicit-midpoint", "my-midpoint", custom_integrator::<ImplicitMidpoint<Vec<f64>>>),
+        own("rk4", "my-rk4", &custom_integrator::<Rk4<Vec<f64>>>),
+        own("velocity-verlet", "my-verlet", &custom_integrator::<VelocityVerlet<Vec<f64>>>),
+        own("adams-bashforth-2", "my-ab2", &custom_integrator::<AdamsBashforth2<Vec<f64>>>),
+        own("bogacki-shampine-32", "my-bs32", &custom_integrator::<BogackiShampine32<Vec<f64>>>),
+        own("implicit-midpoint", "my-midpoint", &custom_integrator::<ImplicitMidpoint<Vec<f64>>>),
     ];
     for card in &mine {
         let found = check(card);
@@ -98,7 +98,7 @@ fn a_custom_method_is_tested_against_its_card() {
         assert!(found.broken().map(|claim| claim.field).eq(["id"]), "{found}");
     }
     let wrong =
-        check(&Method { custom: Some(custom_integrator::<VelocityVerlet<Vec<f64>>>), ..*rk4 });
+        check(&Method { custom: Some(&custom_integrator::<VelocityVerlet<Vec<f64>>>), ..*rk4 });
     assert!(wrong.broken().any(|claim| claim.field == "order"), "{wrong}");
 }
 
@@ -131,7 +131,7 @@ fn a_failing_method_breaks_only_its_claims() {
         order: 1,
         order_with_drag: 1,
         evaluations: Some(1),
-        custom: Some(custom_integrator::<GivesUp>),
+        custom: Some(&custom_integrator::<GivesUp>),
         ..Family::Explicit.card()
     };
     let found = check(&card);

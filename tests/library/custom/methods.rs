@@ -4,8 +4,8 @@ use regatta::measure::{Adviser, Criterion, Judge};
 use regatta::run::{Race, Run, Session};
 use regatta::scene::{LaneSpec, Scene};
 use regatta::sim::integrators::{
-    AdamsBashforth2, BogackiShampine32, Family, ImplicitMidpoint, Integrator, Method, Rk4,
-    StepFailure, VelocityVerlet, custom_integrator, method,
+    AdamsBashforth2, BogackiShampine32, BuildIntegrator, Family, ImplicitMidpoint, Integrator,
+    Method, Rk4, StepFailure, VelocityVerlet, custom_integrator, method,
 };
 use regatta::sim::{State, System};
 
@@ -13,16 +13,16 @@ use crate::scenes::edited;
 
 /// Copies of built-in methods under other ids.
 fn copies() -> [(&'static Method, Method); 5] {
-    let copy = |id: &str, new_id: &'static str, own| {
+    let copy = |id: &str, new_id: &'static str, own: &'static dyn BuildIntegrator| {
         let card = method(id).expect("a method");
         (card, Method { id: new_id, name: new_id, custom: Some(own), ..*card })
     };
     [
-        copy("rk4", "my-rk4", custom_integrator::<Rk4<Vec<f64>>>),
-        copy("velocity-verlet", "my-verlet", custom_integrator::<VelocityVerlet<Vec<f64>>>),
-        copy("adams-bashforth-2", "my-ab2", custom_integrator::<AdamsBashforth2<Vec<f64>>>),
-        copy("bogacki-shampine-32", "my-bs32", custom_integrator::<BogackiShampine32<Vec<f64>>>),
-        copy("implicit-midpoint", "my-midpoint", custom_integrator::<ImplicitMidpoint<Vec<f64>>>),
+        copy("rk4", "my-rk4", &custom_integrator::<Rk4<Vec<f64>>>),
+        copy("velocity-verlet", "my-verlet", &custom_integrator::<VelocityVerlet<Vec<f64>>>),
+        copy("adams-bashforth-2", "my-ab2", &custom_integrator::<AdamsBashforth2<Vec<f64>>>),
+        copy("bogacki-shampine-32", "my-bs32", &custom_integrator::<BogackiShampine32<Vec<f64>>>),
+        copy("implicit-midpoint", "my-midpoint", &custom_integrator::<ImplicitMidpoint<Vec<f64>>>),
     ]
 }
 
@@ -110,7 +110,7 @@ fn a_wrong_card_is_reported_with_each_broken_claim() {
         order_with_drag: 1,
         evaluations: Some(1),
         symplectic: true,
-        custom: Some(custom_integrator::<Hasty<Vec<f64>>>),
+        custom: Some(&custom_integrator::<Hasty<Vec<f64>>>),
         ..Family::Explicit.card()
     };
     let found = regatta::conformance::check(&card);

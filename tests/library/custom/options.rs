@@ -3,7 +3,7 @@
 use glam::DVec2;
 use regatta::prelude::{Extras, Options, ParameterOf, Range, Scene, State, System};
 use regatta::scene::custom::OptionsError;
-use regatta::sim::integrators::{Family, Method, Rk4, custom_integrator, method};
+use regatta::sim::integrators::{BuildIntegrator, Family, Method, Rk4, custom_integrator, method};
 
 use super::{Orbit, Spring};
 
@@ -24,7 +24,7 @@ fn each_option_out_of_its_range_is_named() {
     let made = |id: &'static str, custom| {
         &*Box::leak(Box::new(Method { id, name: "mine", custom, ..Family::Explicit.card() }))
     };
-    let mine = Some(custom_integrator::<Rk4<Vec<f64>>> as fn(usize) -> _);
+    let mine = Some(&custom_integrator::<Rk4<Vec<f64>>> as &dyn BuildIntegrator);
     for (field, says, options) in [
         ("name", "0 characters", Options { name: "", ..plain() }),
         ("tick_hz", "0", Options { tick_hz: 0.into(), ..plain() }),

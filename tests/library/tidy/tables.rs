@@ -134,7 +134,7 @@ fn fit(ids: &[&str], dash: char) {
 #[test]
 fn ids_are_unique_and_fit_to_be_typed() {
     // `regatta show` takes either.
-    let loops = POLICIES.iter().map(|card| card.id);
+    let loops = POLICIES.iter().map(|card| &*card.id);
     fit(&METHODS.iter().map(|method| method.id).chain(loops).collect::<Vec<_>>(), '-');
     fit(&BODIES.iter().map(|kind| kind.id).collect::<Vec<_>>(), '-');
     fit(&SCENES.iter().map(|scene| scene.name).collect::<Vec<_>>(), '-');

@@ -37,7 +37,7 @@ fn rows_are_ordered_by_trace_and_policy_in_csv_and_json() {
     let csv = String::from_utf8(output.stdout).unwrap();
     let lines: Vec<&str> = csv.lines().collect();
     assert_eq!(lines[0], HEADER);
-    let pairs = TRACES.iter().flat_map(|trace| POLICIES.iter().map(move |p| (p.id, trace.id)));
+    let pairs = TRACES.iter().flat_map(|trace| POLICIES.iter().map(move |p| (&*p.id, trace.id)));
     let expected: Vec<String> =
         pairs.map(|(policy, trace)| format!("{policy},{trace},60,")).collect();
     assert_eq!(lines.len() - 1, expected.len());

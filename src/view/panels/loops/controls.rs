@@ -83,12 +83,12 @@ pub(in crate::panels) fn trace_menu(ui: &mut Ui, loops: &LoopLab, commands: &mut
 
 /// Shows the menu of engines, each with its version and what to beware of.
 pub(in crate::panels) fn engine_menu(ui: &mut Ui, loops: &LoopLab, commands: &mut Vec<Command>) {
-    let chosen = loops.engine().map_or("your engine", |card| card.id);
+    let chosen = loops.engine().map_or("your engine", |card| &card.id);
     let menu = ComboBox::from_id_salt("engine").selected_text(short_name(chosen)).width(112.0);
     let response = menu.height(480.0).show_ui(ui, |ui| {
         ui.style_mut().wrap_mode = Some(TextWrapMode::Extend);
         for (index, card) in ENGINES.iter().enumerate() {
-            let (Some(engine), is_chosen) = (card.engine, card.id == chosen) else { continue };
+            let (Some(engine), is_chosen) = (&card.engine, card.id == chosen) else { continue };
             let text = format!("{} {}", card.name, engine.version);
             let label = ui.selectable_label(is_chosen, text);
             if label.on_hover_text(format!("{}; set: {}", engine.caveat, engine.advice)).clicked() {

@@ -196,7 +196,7 @@ fn hover(
             };
             let late_ms = at_ns as f64 / 1e6 - frame.shown_ms;
             let side = if late_ms < 0.0 { "ahead" } else { "behind" };
-            let name = lane.lane.card().name;
+            let name = &lane.lane.card().name;
             let words = format!("{name}: {:.1} ms, {:.1} ms {side}", frame.shown_ms, late_ms.abs());
             ui.label(egui::RichText::new(words).color(lane.colour));
         }

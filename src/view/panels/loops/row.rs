@@ -92,8 +92,8 @@ impl TableRow for Row<'_> {
     fn tooltip(&self, ui: &mut Ui) {
         ui.set_max_width(440.0);
         let card = self.lane.card();
-        ui.label(RichText::new(card.name).font(strong_font(TYPE)));
-        ui.label(card.formula);
+        ui.label(RichText::new(&card.name).font(strong_font(TYPE)));
+        ui.label(&card.formula);
         if !card.constants.is_empty() {
             ui.label(format!("Constants: {}.", card.constants));
         }
@@ -106,6 +106,6 @@ impl TableRow for Row<'_> {
             ui.label(format!("Recommended: {why}."));
         }
         ui.label(format!("Used by {}.", card.users));
-        ui.label(RichText::new(card.source).color(palette(ui).dim));
+        ui.label(RichText::new(&card.source).color(palette(ui).dim));
     }
 }

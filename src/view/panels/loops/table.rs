@@ -72,7 +72,7 @@ fn columns<'a>(loops: &LoopLab) -> Vec<Column<Row<'a>>> {
         136.0,
         "the rule of the loop, from the simplest on",
         |ui, row: &Row<'a>, rect, _| {
-            show_words(ui, rect, row.lane.card().name, row.is_selected(), row.text(ui));
+            show_words(ui, rect, &row.lane.card().name, row.is_selected(), row.text(ui));
         },
         |row| SortKey::Number(row.index as f64),
     );
