@@ -268,7 +268,9 @@ impl<B: Body> Propagator<B> for Reference<B::Vector> {
 
     fn heap_bytes(&self) -> usize {
         let solutions = self.solutions.as_deref().map_or(0, size_of_val);
-        self.exact.as_deref().map_or(solutions, |exact| solutions + size_of_val(exact))
+        let flights = self.flights.as_deref();
+        let flights = flights.map_or(0, |it| size_of_val(it) + it.borrow().heap_bytes());
+        solutions + flights + self.exact.as_deref().map_or(0, size_of_val)
     }
 }
 

@@ -151,6 +151,16 @@ impl<V: Vector> Trajectory<V> {
         self.piece = walls::piece(body, t, &self.at);
     }
 
+    /// Goes to where `other` is, as it steps. The landings stay.
+    pub(super) fn assign(&mut self, other: &Self) {
+        self.at.assign(&other.at);
+        self.low.assign(&other.low);
+        self.turns.assign(&other.turns);
+        let Self { step, piece, extents, control, .. } = other;
+        self.piece.clone_from(piece);
+        (self.step, self.extents, self.control) = (*step, *extents, *control);
+    }
+
     /// Whether the body rests on a wall, in the mode other than 0.
     pub(super) fn rests<B: Body<Vector = V>>(&self, body: &B) -> bool {
         self.piece.modes[..body.switches()].iter().skip(body.first_wall()).any(|mode| *mode != 0)
