@@ -97,12 +97,11 @@ impl Driver {
             traces.map(|traces| open_traces(studio, traces))
         } else if is("loop") {
             read_own_loop(path, bytes.into()).map(|(card, text)| {
+                let id = card.id.clone();
                 open_own_loop(studio, card);
                 // A page cannot watch a file.
                 studio.viewer.preferences.my_lines = text;
-                studio
-                    .viewer
-                    .set_notice(format!("{} runs beside the others: Shift S edits it", card.id));
+                studio.viewer.set_notice(format!("{id} runs beside the others: Shift S edits it"));
             })
         } else {
             let bytes = recording_in(bytes).map_or(bytes, str::as_bytes);
