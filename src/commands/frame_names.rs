@@ -29,9 +29,13 @@ pub(crate) fn frame_name(frame: u32) -> String {
 
 /// Returns the number of the frame with this file name, or `None` if the name is not that of a frame.
 pub(crate) fn frame_number(name: &str) -> Option<u32> {
+    frame_digits(name).filter(|digits| digits.len() == 6)?.parse().ok()
+}
+
+/// Returns the digits of a name that is like that of a frame, however many there are.
+pub(crate) fn frame_digits(name: &str) -> Option<&str> {
     let digits = name.strip_prefix("frame-")?.strip_suffix(".png")?;
-    let is_number = digits.len() == 6 && digits.bytes().all(|b| b.is_ascii_digit());
-    is_number.then(|| digits.parse().ok()).flatten()
+    digits.bytes().all(|b| b.is_ascii_digit()).then_some(digits)
 }
 
 /// Whether the picture at `path` carries this program's mark.

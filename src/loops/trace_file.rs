@@ -255,7 +255,7 @@ fn read_in(
 /// Longest median of frame times in milliseconds that needs no word.
 const MAX_USUAL_MS: f64 = 1e5;
 
-/// Returns what is taken of a log, with the remarks on it.
+/// Returns the part of a log that is taken, with the remarks on it.
 fn taken(layout: &Layout, frames: &Frames, options: &TableOptions) -> Taken {
     let (columns, frames_ms) = (&layout.columns, &frames.checks.frames_ms);
     let mut notes = Vec::new();

@@ -160,6 +160,7 @@ impl NearWall {
         self.speed += h * if self.touches { pushed } else { self.push };
         self.height += h * self.speed;
     }
+
     fn cannon(&mut self, h: f64) {
         let [pull, kept, give] = spook(h, 3.0, 1e7);
         let rebound = kept * (1.0 + self.restitution) * self.speed;

@@ -19,7 +19,7 @@ use crate::commands::error::Error;
 use crate::commands::error::PlaceOf;
 #[cfg(feature = "view")]
 use crate::commands::frame_folder::{FolderPolicy, FrameFolder};
-use crate::commands::frame_names::{in_the_way, is_pending};
+use crate::commands::frame_names::{frame_digits, in_the_way, is_pending};
 use crate::commands::interrupt::watch_for_interrupt;
 use crate::commands::manifest::{FILE_NAME, Manifest, fingerprint};
 use crate::commands::output::DirectoryLock;
@@ -153,13 +153,9 @@ fn add_pixels(
 /// Returns the names in `dir` that are like those of frames, and that the manifest does not list.
 fn unlisted(dir: &Path, manifest: &Manifest) -> Vec<String> {
     let listed: HashSet<&str> = manifest.frames.iter().map(|entry| &*entry.file).collect();
-    let is_numbered = |name: &String| {
-        let digits = name.strip_prefix("frame-").and_then(|rest| rest.strip_suffix(".png"));
-        digits.is_some_and(|digits| digits.bytes().all(|b| b.is_ascii_digit()))
-    };
     let entries = std::fs::read_dir(dir).into_iter().flatten().flatten();
     let names = entries.filter_map(|entry| entry.file_name().into_string().ok());
-    let is_beyond = |name: &String| is_numbered(name) && !listed.contains(&**name);
+    let is_beyond = |name: &String| frame_digits(name).is_some() && !listed.contains(&**name);
     let mut found: Vec<String> = names.filter(is_beyond).collect();
     found.sort();
     found

@@ -205,8 +205,8 @@ impl Frames {
         Ok(number)
     }
 
-    /// Leaves out streams without a frame, and refuses what are no frames. An error has its line, or none if it is of
-    /// the whole log.
+    /// Leaves out streams without a frame, and refuses rows that are no frames. An error has its line, or none if it is
+    /// of the whole log.
     pub(super) fn judge(
         &mut self,
         layout: &Layout,

@@ -1,4 +1,4 @@
-//! What the columns of a log are, and in which unit its times are.
+//! The columns of a log, and the unit of its times.
 
 use csv::StringRecord;
 

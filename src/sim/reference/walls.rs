@@ -10,7 +10,8 @@ use crate::system::{StateOf, System};
 /// The mode of a wall on which the body rests.
 const RESTS: i64 = 1;
 
-/// One smooth piece of the force law of a body, continued beyond its boundaries. What rests on a wall goes with it.
+/// One smooth piece of the force law of a body, continued beyond its boundaries. A coordinate that rests on a wall goes
+/// with it.
 pub(super) struct SmoothPiece<'a, B> {
     pub(super) body: &'a B,
     pub(super) piece: &'a Piece,

@@ -163,7 +163,7 @@ pub(super) fn fit(
     is_finite.then_some(Fit { body, start, run: now, precise, residuals })
 }
 
-/// What a search for the best numbers of a body needs beside its runs.
+/// A search for the best numbers of a body, whose runs are made elsewhere.
 struct Search<'a> {
     log: &'a Log,
     tick_s: f64,

@@ -48,7 +48,7 @@ pub(super) fn map_of_log(log: &Log, tick_s: f64) -> Option<Map> {
     Some([row(&x)?, row(&v)?])
 }
 
-/// What tells a motion: the parts of its map in units of the tick, or else the map's trace and determinant.
+/// The numbers that tell a motion: the parts of its map in units of the tick, or else the map's trace and determinant.
 fn parts([[a, b], [c, d]]: Map, tick_s: f64, is_whole: bool) -> [f64; 4] {
     match is_whole {
         true => [a, b / tick_s, c * tick_s, d],

@@ -61,11 +61,13 @@ pub(super) fn text_of(
 /// Whether the only lane has gone on with a visible error. A method that took over now would begin with that error,
 /// which its own verdict lacks.
 fn has_strayed(studio: &Studio) -> bool {
-    let race = studio.race();
-    let severity = || super::verdict_on(studio, studio.active()).sign.map(|(_, severity)| severity);
+    let lane = &studio.selected().lane;
+    let halted = || lane.halts().next().map(Outcome::of_halt);
+    let judged = || studio.viewer.verdict_from_here(&studio.deck, studio.active());
+    let outcome = || halted().or_else(|| Some(judged()?.outcome()));
     studio.mode() == Mode::Solo
-        && race.t() > studio.run().checkpoints().verdicts_start_at_s()
-        && matches!(severity(), Some(Severity::Doubtful | Severity::Bad))
+        && studio.race().t() > studio.run().checkpoints().verdicts_start_at_s()
+        && matches!(outcome().map(Outcome::severity), Some(Severity::Doubtful | Severity::Bad))
 }
 
 /// Says that a verdict holds only if its method had run from the start. Its sign has no colour.
