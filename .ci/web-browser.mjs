@@ -121,8 +121,11 @@ async function byWebDriver(driver, binary) {
             };
         },
         async close() {
-            await window("DELETE", "");
-            driving.kill();
+            try {
+                await window("DELETE", "");
+            } finally {
+                driving.kill();
+            }
         },
     };
 }

@@ -3,7 +3,8 @@
 // numbers of the pages of questions, a stage that is drawn, and time that runs as in the world. `.ci/web-test.mjs firefox` and
 // `.ci/web-test.mjs webkit` take these browsers instead of Chromium, in which alone touch, a lost context and files are tried.
 // Needs the browser, and npm, which installs the driver under target/tools; WebKit is GTK's MiniBrowser with WebKitWebDriver.
-// These two need a display, as xvfb-run has one. Exits 2 where something is missing.
+// These two need a display, as xvfb-run has one. Exits 2 where something is missing, and 3 where the browser goes no further,
+// as when one of its processes has crashed.
 
 import { existsSync, readdirSync, readFileSync } from "node:fs";
 import { dirname, join } from "node:path";
@@ -300,10 +301,14 @@ try {
     }
     hold(`complaints: ${driven.complaints.join("; ")}`, driven.complaints.length === 0);
     hold(`not found: ${server.missing.join(", ")}`, server.missing.length === 0);
+} catch (reason) {
+    // Apart from a claim that does not hold, for a process of a browser may end by itself.
+    console.error(`${browser} goes no further: ${reason.stack ?? reason}`);
+    process.exitCode = 3;
 } finally {
-    await driven.close();
+    await driven.close().catch((reason) => console.error(`${browser} does not close: ${reason}`));
     server.close();
 }
 failures.forEach((failure) => console.error(`FAILED ${failure}`));
 console.log(`${passed} passed, ${failures.length} failed`);
-process.exit(failures.length ? 1 : 0);
+process.exit(failures.length ? 1 : process.exitCode);
