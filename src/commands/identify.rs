@@ -41,6 +41,9 @@ The body is one of:
 
 Identify finds where the spring rests, if not at 0, or takes it from --rest.
 
+Beside the methods of the list it tries steps that people write by hand, such as x += v dt + a dt²/2, or damping
+by a factor after the move, and shows their lines.
+
 A residual is the root mean square of the difference from the log, in units of the largest x and v.
 The word is
 

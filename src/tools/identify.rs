@@ -10,6 +10,7 @@ mod candidates;
 mod decision;
 mod effective;
 mod fit;
+mod forms;
 mod logged;
 mod matching_spring;
 mod motion;

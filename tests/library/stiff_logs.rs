@@ -1,4 +1,4 @@
-//! The maker of a log of a stiff spring is named without its stiffness, and no other one.
+//! The maker of a log of a stiff spring is named without its stiffness, and no other one. So are steps by hand.
 
 use regatta::sim::integrators::{fresh, method, problem};
 use regatta::sim::{State, System};
@@ -29,6 +29,74 @@ fn log(id: &str, [hz, ratio, tick_hz]: [f64; 3], rows: usize) -> Log {
         stepper.steps(&spring, t, 1.0 / tick_hz, 1, &mut state).expect("a step");
     }
     Log::parse("log.csv", &text, &TableOptions::default(), tick_hz).expect("a log")
+}
+
+/// A step by hand, of x, v and the acceleration of the tick before, with stiffness, damping and the length of a tick.
+type ByHand = fn([f64; 3], [f64; 3]) -> [f64; 3];
+
+/// Steps as people write them, with the forms that they are.
+const BY_HAND: [(&str, ByHand); 8] = [
+    ("uniform-acceleration", |[x, v, _], [k, c, h]| {
+        let a = -k * x - c * v;
+        [x + v * h + 0.5 * a * h * h, v + a * h, a]
+    }),
+    ("verlet-old-velocity", |[x, v, _], [k, c, h]| {
+        let a = -k * x - c * v;
+        let to = x + v * h + 0.5 * a * h * h;
+        [to, v + 0.5 * (a + (-k * to - c * v)) * h, a]
+    }),
+    ("verlet-half-velocity", |[x, v, _], [k, c, h]| {
+        let half = v + 0.5 * h * (-k * x - c * v);
+        let to = x + half * h;
+        [to, half + 0.5 * h * (-k * to - c * half), 0.0]
+    }),
+    ("verlet-carried-force", |[x, v, a], [k, c, h]| {
+        let half = v + 0.5 * h * if a.is_nan() { -k * x - c * v } else { a };
+        let to = x + half * h;
+        let a = -k * to - c * half;
+        [to, half + 0.5 * h * a, a]
+    }),
+    ("drift-first", |[x, v, _], [k, c, h]| {
+        let to = x + v * h;
+        [to, v + h * (-k * to - c * v), 0.0]
+    }),
+    ("damped-before", |[x, v, _], [k, c, h]| {
+        let v = v * libm::exp(-c * h) - k * x * h;
+        [x + v * h, v, 0.0]
+    }),
+    ("damped-between", |[x, v, _], [k, c, h]| {
+        let v = (v - k * x * h) * libm::exp(-c * h);
+        [x + v * h, v, 0.0]
+    }),
+    ("damped-after", |[x, v, _], [k, c, h]| {
+        let v = v - k * x * h;
+        [x + v * h, v * libm::exp(-c * h), 0.0]
+    }),
+];
+
+#[test]
+fn a_step_by_hand_is_named_with_its_numbers_and_is_never_an_engine_s_alone() {
+    for (id, step) in BY_HAND {
+        for (hz, ratio) in [(2.0, 0.2), (1.0, 0.7), (5.0, 0.05)] {
+            let omega = std::f64::consts::TAU * hz;
+            let [k, c] = [omega * omega, 2.0 * ratio * omega];
+            let mut now = [1.0, 0.0, f64::NAN];
+            let mut text = "tick,x,v\n".to_owned();
+            for tick in 0..300 {
+                text += &format!("{tick},{:?},{:?}\n", now[0], now[1]);
+                now = step(now, [k, c, 1.0 / 60.0]);
+            }
+            let log = Log::parse("log.csv", &text, &TableOptions::default(), 60.0).expect("a log");
+            let given = LoggedBody { spring: Some([k, c]), ..LoggedBody::default() };
+            let found = identify(&log, &given, 60.0).expect("an answer");
+            assert_eq!(found.conclusion, Conclusion::Identified, "{id} at {hz} Hz");
+            assert!(names(&found).contains(&id), "{id} at {hz} Hz: {:?}", names(&found));
+            let found = identify(&log, &LoggedBody::default(), 60.0).expect("an answer");
+            let all = found.unusual.iter().map(|candidate| candidate.method.id);
+            let all: Vec<&str> = names(&found).into_iter().chain(all).collect();
+            assert!(all.contains(&id), "{id} at {hz} Hz, without its spring: {all:?}");
+        }
+    }
 }
 
 fn names(found: &Identification) -> Vec<&'static str> {

@@ -387,11 +387,20 @@ pub(super) fn report_text(found: &Identification, log: &Log, mass: f64) -> Strin
     let mut engines: Vec<&Method> = named.iter().map(|candidate| candidate.method).collect();
     engines.dedup();
     lines.extend(engines.into_iter().filter_map(|method| {
-        let held = method.engine?.checked_against()?;
-        Some(format!("{}: {held}", method.id))
+        let about = match method.own_text() {
+            Some(_) => own_lines(method),
+            None => method.engine?.checked_against()?,
+        };
+        Some(format!("{}: {about}", method.id))
     }));
     lines.push(String::new());
     lines.join("\n")
+}
+
+/// Returns the lines of a form, without the numbers that it takes.
+fn own_lines(method: &Method) -> String {
+    let lines = method.formula.iter().filter(|line| !line.starts_with("takes "));
+    lines.copied().collect::<Vec<_>>().join("; ")
 }
 
 #[cfg(test)]

@@ -1,7 +1,8 @@
-//! The candidates for the origin of a log, which are the methods of the table, each with several numbers of substeps.
+//! The candidates for the origin of a log: the methods of the table, each with several numbers of substeps, and forms.
 
 use std::fmt;
 
+use super::forms::forms;
 use super::logged::LoggedBody;
 use crate::sim::integrators::{JointMode, METHODS, Method};
 
@@ -48,6 +49,8 @@ const HELD_RARITY: f64 = 12.0;
 const CHANGED_ENGINE_RARITY: f64 = 8.0;
 /// Twice the log-odds against substeps in a method that a game implements itself.
 const CHANGED_METHOD_RARITY: f64 = 20.0;
+/// Twice the log-odds against a form of one's own.
+const FORM_RARITY: f64 = 20.0;
 /// Twice the log-odds against a number of substeps that few people set.
 const UNUSUAL_SUBSTEPS_RARITY: f64 = 24.0;
 
@@ -89,15 +92,16 @@ impl Candidate {
             (false, true, false) => CHANGED_METHOD_RARITY,
             (false, false, _) => UNUSUAL_SUBSTEPS_RARITY,
         };
-        held + set
+        held + set + if self.method.own_text().is_some() { FORM_RARITY } else { 0.0 }
     }
 
     /// Returns the sort key of equivalent candidates. Default engines come first, then usual substeps, the engine's
     /// first way to apply the spring, and other engines.
-    pub(super) fn preference(&self) -> (bool, bool, bool, bool, u32, Option<usize>) {
+    pub(super) fn preference(&self) -> (bool, bool, bool, bool, u32, usize) {
         let is_as_set = self.method.is_engine() && self.is_as_set();
         let is_told = self.spring_label().is_some();
         let index = METHODS.iter().position(|method| method.id == self.method.id);
+        let index = index.unwrap_or(METHODS.len());
         (!is_as_set, !self.is_usual(), is_told, !self.method.is_engine(), self.substeps, index)
     }
 }
@@ -129,5 +133,11 @@ pub(super) fn candidates(body: &LoggedBody) -> Vec<Candidate> {
         }
     }
     all.retain(|candidate| body.spring.is_some() || candidate.is_usual());
+    let form = |method: &&'static Method| Candidate {
+        method,
+        substeps: 1,
+        spring: SpringForm::Acceleration,
+    };
+    all.extend(forms().iter().map(form));
     all
 }
