@@ -102,8 +102,9 @@ fn the_licence_of_every_crate_in_the_program_is_packed_with_it() {
 
 /// Cargo drops `strip` of a package that has a table of its own in a profile.
 #[test]
-fn no_profile_has_a_table_for_a_package_of_ours() {
+fn no_profile_of_what_is_shipped_has_a_table_for_a_package_of_ours() {
     let manifest = include_str!("../../Cargo.toml");
+    let (_, manifest) = manifest.split_once("[profile.release]").expect("a profile");
     let is_profile = |line: &&str| line.starts_with("[profile.");
     let tables = manifest.lines().filter(is_profile).filter(|line| line.contains("regatta"));
     assert_eq!(tables.collect::<Vec<_>>(), [""; 0]);
