@@ -12,7 +12,8 @@ under the name in the first column.
 
 | room | package | holds | may name | open first |
 |---|---|---|---|---|
-| [`sim`] | `regatta-sim` | states, equations, methods, bodies | - | `sim/integrators/rk4.rs` |
+| [`lines`] | `regatta-lines` | the language of methods, rules and loops | - | `lines/step_text.rs` |
+| [`sim`] | `regatta-sim` | states, equations, methods, bodies | `lines` | `sim/integrators/rk4.rs` |
 | [`scene`] | `regatta-scene` | scenes as text and value, actions, custom bodies | `sim` | `scene/mod.rs` |
 | [`table`] | `regatta-table` | a table reader: bytes to rows and numbers | `sim scene` | `table/mod.rs` |
 | [`run`] | `regatta-run` | a race against the truth: actions, past, recording | `sim table scene` | `run/mod.rs` |
@@ -207,9 +208,9 @@ pub use regatta_view as view;
 #[cfg(feature = "lab")]
 #[doc(inline)]
 pub use {
-    regatta_look as look, regatta_loops as loops, regatta_measure as measure, regatta_run as run,
-    regatta_scene as scene, regatta_stage as stage, regatta_studio as studio,
-    regatta_table as table, regatta_tools as tools,
+    regatta_lines as lines, regatta_look as look, regatta_loops as loops,
+    regatta_measure as measure, regatta_run as run, regatta_scene as scene, regatta_stage as stage,
+    regatta_studio as studio, regatta_table as table, regatta_tools as tools,
 };
 
 #[cfg(feature = "lab")]

@@ -267,7 +267,7 @@ fn are_alike(a: usize, b: usize) -> bool {
 /// Returns the indices of a method's colour and dash.
 fn indices(method: &Method) -> (usize, usize) {
     let listed = METHODS.iter().position(|listed| listed == method);
-    listed.map_or_else(|| own_style(method), |index| STYLES[index])
+    listed.map_or_else(|| own_style(method.id), |index| STYLES[index])
 }
 
 /// Returns the indices of the colour and dash of a method that has the same style in every scene.
@@ -317,8 +317,8 @@ fn lane_places(lanes: &[LaneSpec], lane: &LaneSpec) -> (usize, usize) {
 
 /// Returns the indices of the colour and dash of a method outside the table. They are derived from the method's id, so
 /// that they never change. The first colour and the first dash are excluded, because they belong to explicit Euler.
-fn own_style(method: &Method) -> (usize, usize) {
-    let sum = method.id.bytes().fold(0, |sum: usize, byte| (31 * sum + usize::from(byte)) % 9973);
+fn own_style(id: &str) -> (usize, usize) {
+    let sum = id.bytes().fold(0, |sum: usize, byte| (31 * sum + usize::from(byte)) % 9973);
     (1 + sum % (DARK.methods.len() - 1), 1 + sum % (FIRST_DASHES - 1))
 }
 

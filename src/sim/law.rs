@@ -1,55 +1,40 @@
 //! Equations of motion as text, such as `z = "-k*z/m"`, compiled to a flat tape.
 //!
-//! The parser and the evaluator are our own, because crates for expressions evaluate with std's mathematics, which
-//! differs from platform to platform. Here every function is `libm`'s. Operations keep the order of the text: `a + b +
-//! c` is `(a + b) + c`. A whole exponent up to 16 becomes a product, so that `x^2` has the bits of `x*x`, `x^3` those
-//! of `x*x*x`, and `x^-2` those of `1/(x*x)`. Any other power is computed by `libm::pow`. The parser recurses for
-//! brackets, signs and functions, at most [`MAX_DEPTH`] deep.
+//! The expressions are those of [lines](regatta_lines).
 
 use std::ops::Range;
 
-use super::body::Distances;
+use regatta_lines::{Jet, Tape, is_angle, is_linear, quoted};
+
+use super::body::{self, Distances};
 use compile::{Compiled, Compiler, check_names};
-use fault::quoted;
-use form::{is_angle, is_linear};
-use jet::Jet;
-use op::Op;
-use tape::Tape;
 
 mod compile;
 mod event;
-mod expression;
 mod fault;
-mod form;
-mod function;
-mod jet;
-mod op;
+mod linear;
+mod powers;
 mod rate;
 mod registers;
-mod step_text;
-mod switch;
-mod tape;
 mod text;
-mod token;
 
-pub use expression::Expression;
-pub use expression::{MAX_BYTES, MAX_DEPTH};
-pub use fault::{ExpressionFault, LawFault, Part, Remedy};
-pub use op::Level;
+pub use fault::{LawFault, Part};
+pub use linear::{AT_TARGET, Frame, LinearRule, NO_RETURN, RuleBody, remembers_place};
+pub use powers::Powers;
 pub use rate::{SecondOrder, second_order};
+pub use regatta_lines::{
+    Carried, Declares, Expression, ExpressionFault, FrameInput, FrameOutput, General, Input, Level,
+    Line, LoopName, LoopText, MAX_BYTES, MAX_DEPTH, MAX_OPERATIONS, MAX_STEP_BYTES, MethodInput,
+    Operation, Remedy, Request, StepBody, StepCall, StepMap, StepRegisters, StepText, SwitchKind,
+    bracketed, functions, operators, values,
+};
 pub(crate) use registers::LawLanes;
 pub use registers::Registers;
-pub use step_text::{
-    AT_TARGET, Frame, Line, LoopName, NO_RETURN, Operation, Powers, StepBody, SwitchKind,
-    bracketed, remembers_place,
-};
-pub use step_text::{
-    Carried, Declares, General, Input, LinearRule, MAX_STEP_BYTES, MethodInput, Request, RuleBody,
-    StepCall, StepMap, StepRegisters, StepText,
-};
-pub use step_text::{FrameInput, FrameOutput, LoopText};
-pub use tape::MAX_OPERATIONS;
 pub use text::{CoordinateText, EventText, LawText, Layout};
+
+// A piece of a motion has the modes of a tape, and a table as many points as a curve of a body.
+const _: () = assert!(regatta_lines::MAX_SWITCHES == body::MAX_SWITCHES);
+const _: () = assert!(regatta_lines::MAX_POINTS == crate::MAX_POINTS);
 
 /// The maximum number of coordinates of a law. More could not be distinguished on a stage.
 pub const MAX_COORDINATES: usize = 16;
@@ -67,21 +52,6 @@ pub const UNITS: [&str; 14] =
 /// Returns a unit as people read it, which is empty for a pure number.
 pub(crate) fn shown_unit(unit: &'static str) -> &'static str {
     if unit == "1" { "" } else { unit }
-}
-
-/// Returns the operators of expressions, which are signs and words.
-pub fn operators() -> impl Iterator<Item = &'static str> {
-    token::operator_signs().chain(op::OPERATOR_WORDS)
-}
-
-/// Returns the functions of expressions, each with its arguments, such as `min(a, b)`.
-pub fn functions() -> impl Iterator<Item = String> {
-    function::FUNCTIONS.iter().map(function::Function::usage)
-}
-
-/// Returns the names that every acceleration can use, which are the time, the inputs and π.
-pub fn values() -> impl Iterator<Item = &'static str> {
-    op::VALUE_WORDS.into_iter()
 }
 
 /// A compiled law.
@@ -367,27 +337,11 @@ impl Equations {
     /// Returns the fault of the first operation that makes an acceleration infinite or undefined in the last
     /// evaluation; `None` if all accelerations are finite.
     pub(crate) fn not_finite(&self, registers: &Registers) -> Option<LawFault> {
-        let value = |slot: u16| registers.motion[slot as usize];
-        let mut slot = *self.motion.outputs.iter().find(|&&slot| !value(slot).is_finite())?;
-        loop {
-            let (op, operands, ..) = self.motion.operations().find(|(_, _, to, _)| *to == slot)?;
-            // The untaken branch of a choice does not matter.
-            let taken =
-                |n: &usize| op != Op::If || *n == if value(operands[0]) == 1.0 { 1 } else { 2 };
-            let mut rows = (0..operands.len()).filter(taken).map(|n| operands[n]);
-            if let Some(operand) = rows.find(|&operand| !value(operand).is_finite())
-                && self.motion.origin(operand).is_some()
-            {
-                slot = operand;
-                continue;
-            }
-            let origin = self.motion.origin(slot)?;
-            let divides = op == Op::Divide && value(operands[1]) == 0.0;
-            let what = if divides { "divides by zero" } else { "is not finite" };
-            let written = quoted(&self.part(origin.part)[origin.span.clone()]);
-            let remedy = "give another start or other constants, or guard it with `if` or `max`";
-            let what = format!("`{written}` {what} at the start");
-            return Some(ExpressionFault::new(origin.span.clone(), what, remedy).of(origin.part));
-        }
+        let (origin, divides) = self.motion.not_finite(&registers.motion)?;
+        let (part, span) = (Part::Acceleration(origin.expression), origin.span.clone());
+        let what = if divides { "divides by zero" } else { "is not finite" };
+        let what = format!("`{}` {what} at the start", quoted(&self.part(part)[span.clone()]));
+        let remedy = "give another start or other constants, or guard it with `if` or `max`";
+        Some(LawFault::new(part, span, what, remedy))
     }
 }

@@ -29,8 +29,6 @@ mod clock;
 #[cfg(feature = "lab")]
 pub mod conformance;
 mod contact;
-#[cfg(feature = "lab")]
-mod curve;
 mod double_double;
 mod exact_flow;
 mod exact_since_start;

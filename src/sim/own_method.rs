@@ -1,10 +1,13 @@
 //! Methods made of a person's own lines, with measured cards.
 //!
 //! Lines make no claims, so that the card of a method is measured, unless it needs a target or a joint. Then menus,
-//! advice and refusals treat them as they do any other method. Equal lines are one method, which stays for the life of
-//! the process, because lanes name methods by `&'static`.
+//! advice and refusals treat them as they do any other method.
+//!
+//! The list [`KNOWN`] holds all lines that have become a method, with their ids and cards. Lanes name methods by
+//! `&'static`, so that an entry stays where it is until the process ends. Equal lines under one id are one entry, and
+//! only lines without a fault are listed: a file that is edited for a day fills some hundred entries of a few KB.
 
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Arc, OnceLock};
 
 use super::conformance;
 use super::integrators::step_method::StepMethod;
@@ -21,7 +24,7 @@ use super::tick_rate::TickRate;
 pub const MAX_OWN_ID_CHARS: usize = 64;
 
 /// Lines of a person's own that step a body.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub enum OwnLines {
     /// A method, which calls the acceleration.
     Method(Arc<StepText>),
@@ -62,8 +65,63 @@ impl BuildIntegrator for OwnLines {
     }
 }
 
-/// Every method made so far, so that equal lines under one id are one method.
-static KNOWN: Mutex<Vec<&'static Method>> = Mutex::new(Vec::new());
+/// Lines under an id, and the method made of them.
+struct Entry {
+    id: String,
+    own: OwnLines,
+    formula: OnceLock<Vec<&'static str>>,
+    /// The card before it is measured.
+    card: OnceLock<Method>,
+    about: OnceLock<String>,
+    method: OnceLock<Method>,
+    next: OnceLock<Box<Self>>,
+}
+
+/// The first entry, from which [`Entry::next`] leads to all others.
+static KNOWN: OnceLock<Box<Entry>> = OnceLock::new();
+
+impl Entry {
+    /// Returns the entry of these lines under this id, which is appended if there is none.
+    fn of(id: &str, own: &OwnLines) -> &'static Self {
+        let new = || Self {
+            id: id.to_owned(),
+            own: own.clone(),
+            formula: OnceLock::new(),
+            card: OnceLock::new(),
+            about: OnceLock::new(),
+            method: OnceLock::new(),
+            next: OnceLock::new(),
+        };
+        let mut place = &KNOWN;
+        loop {
+            let entry = place.get_or_init(|| Box::new(new()));
+            if entry.id == id && entry.own.text() == own.text() && entry.own.fps() == own.fps() {
+                return entry;
+            }
+            place = &entry.next;
+        }
+    }
+
+    /// Returns the method. The first call makes it by `finish` from a card with the name and formula of the lines. If
+    /// `finish` panics, the next call tries again.
+    fn method(&'static self, finish: impl FnOnce(Method) -> Method) -> &'static Method {
+        self.method.get_or_init(|| {
+            let lines = self.own.lines().source().lines().map(str::trim);
+            let lines = lines.filter(|line| !line.is_empty() && !line.starts_with('#'));
+            let formula = self.formula.get_or_init(|| lines.collect());
+            let (id, source) = (&self.id, "lines of one's own");
+            let custom = Some(&self.own as &dyn BuildIntegrator);
+            finish(Method { id, name: id, formula, source, custom, ..Family::Explicit.card() })
+        })
+    }
+
+    /// Returns this card with measured values.
+    fn measured(&'static self, card: Method) -> Method {
+        let (measured, about) = conformance::measured(self.card.get_or_init(|| card));
+        let has_own_floor = has_floor(&measured);
+        Method { about: self.about.get_or_init(|| about), has_own_floor, ..measured }
+    }
+}
 
 /// Returns the method of these lines under this id. [`conformance`] measures its card once per process, in a fraction
 /// of a second. Equal lines share one card, which lives as long as the process.
@@ -79,34 +137,25 @@ static KNOWN: Mutex<Vec<&'static Method>> = Mutex::new(Vec::new());
 /// assert!(own_method("mine", "x += v * h").is_err());
 /// ```
 pub fn own_method(id: &str, text: &str) -> Result<&'static Method, ExpressionFault> {
-    known_or(id, text, None, || {
-        let read = StepText::read(text)?;
-        if read.acceleration_at().is_none() {
-            return Err(ExpressionFault {
-                span: 0..text.len(),
-                what: "no line calls `a(x, v)`, so that the lines are a rule".into(),
-                remedy: Remedy::Words(
-                    "give its `fps` in a scene, or its file in the place of one; or call the acceleration: `v += h * a(x, v)`".into(),
-                ),
-            });
-        }
-        let only = only(&read);
-        let made = Method {
-            only,
-            about: "a method by lines of one's own",
-            source: "lines of one's own; this card is measured",
-            ..card(id, OwnLines::Method(Arc::new(read)))
-        };
+    let read = StepText::read(text)?;
+    if read.acceleration_at().is_none() {
+        return Err(ExpressionFault {
+            span: 0..text.len(),
+            what: "no line calls `a(x, v)`, so that the lines are a rule".into(),
+            remedy: Remedy::Words(
+                "give its `fps` in a scene, or its file in the place of one; or call the acceleration: `v += h * a(x, v)`".into(),
+            ),
+        });
+    }
+    let only = only(&read);
+    let entry = Entry::of(id, &OwnLines::Method(Arc::new(read)));
+    Ok(entry.method(|card| {
+        let about = "a method by lines of one's own";
+        let source = "lines of one's own; this card is measured";
+        let card = Method { only, about, source, ..card };
         // The problems of the measurements have no target and no joint.
-        Ok(match only {
-            Some(_) => made,
-            None => {
-                let (measured, about) = conformance::measured(Box::leak(Box::new(made)));
-                let has_own_floor = has_floor(&measured);
-                Method { about: about.leak(), has_own_floor, ..measured }
-            }
-        })
-    })
+        if only.is_some() { card } else { entry.measured(card) }
+    }))
 }
 
 /// Whether a fall through 0 by this method ends otherwise than the same fall far above it.
@@ -163,25 +212,24 @@ fn only(text: &StepText) -> Option<Only> {
 /// assert!(own_rule("method", "v += a(x, v) * h; x += v * h", TickRate::whole(30)).is_err());
 /// ```
 pub fn own_rule(id: &str, text: &str, fps: TickRate) -> Result<&'static Method, ExpressionFault> {
-    known_or(id, text, Some(fps), || {
-        let rule = linear_rule(text, fps)?;
-        let only = match rule.body() {
-            RuleBody::Follower { .. } => Only {
-                needs: Needs::Law { order: 1 },
-                reason: "a rule of one number moves a follower with `order = 1`",
-            },
-            _ => Only { needs: Needs::Force, reason: "a rule of two numbers moves no follower" },
-        };
-        Ok(Method {
-            about: "a rule of one's own: the same lines once a step, whatever the body",
-            source: "lines of one's own",
-            order: 0,
-            order_with_drag: 0,
-            evaluations: Some(u32::from(rule.takes_target())),
-            only: Some(only),
-            ..card(id, OwnLines::Rule(Arc::new(rule)))
-        })
-    })
+    let rule = linear_rule(text, fps)?;
+    let only = match rule.body() {
+        RuleBody::Follower { .. } => Only {
+            needs: Needs::Law { order: 1 },
+            reason: "a rule of one number moves a follower with `order = 1`",
+        },
+        _ => Only { needs: Needs::Force, reason: "a rule of two numbers moves no follower" },
+    };
+    let evaluations = Some(u32::from(rule.takes_target()));
+    let entry = Entry::of(id, &OwnLines::Rule(Arc::new(rule)));
+    Ok(entry.method(|card| Method {
+        about: "a rule of one's own: the same lines once a step, whatever the body",
+        order: 0,
+        order_with_drag: 0,
+        evaluations,
+        only: Some(only),
+        ..card
+    }))
 }
 
 /// Returns the rule of these lines, written for this many frames per second.
@@ -195,40 +243,6 @@ pub fn linear_rule(text: &str, fps: TickRate) -> Result<LinearRule, ExpressionFa
         what,
         remedy: Remedy::Words(remedy),
     })
-}
-
-/// Returns the method of these lines if this process has it already, or else the method that `make` returns.
-fn known_or(
-    id: &str,
-    text: &str,
-    fps: Option<TickRate>,
-    make: impl FnOnce() -> Result<Method, ExpressionFault>,
-) -> Result<&'static Method, ExpressionFault> {
-    let known = || KNOWN.lock().unwrap_or_else(PoisonError::into_inner);
-    let is_it = |method: &&&Method| {
-        method.id == id && method.own_text() == Some(text) && method.rule_fps() == fps
-    };
-    if let Some(method) = known().iter().find(is_it) {
-        return Ok(method);
-    }
-    let method = make()?;
-    let mut known = known();
-    // Another thread may have made the same method meanwhile.
-    if let Some(method) = known.iter().find(is_it) {
-        return Ok(method);
-    }
-    known.push(Box::leak(Box::new(method)));
-    Ok(known[known.len() - 1])
-}
-
-/// Returns a card with the name and formula of these lines.
-fn card(id: &str, own: OwnLines) -> Method {
-    let lines = own.lines().source().lines().map(str::trim);
-    let lines = lines.filter(|line| !line.is_empty() && !line.starts_with('#'));
-    let formula: Vec<&'static str> = lines.map(|line| &*line.to_owned().leak()).collect();
-    let name: &'static str = id.to_owned().leak();
-    let own: &'static OwnLines = Box::leak(Box::new(own));
-    Method { id: name, name, formula: formula.leak(), custom: Some(own), ..Family::Explicit.card() }
 }
 
 /// Returns the method id for a file whose name without its extension is `stem`. The id has the letters and digits of

@@ -219,7 +219,7 @@ impl Rule {
     /// Returns a frame as a map; `None` for more than two numbers, or if not even small motions about a rest at 0 are
     /// linear.
     fn frame(&self, fps: f64) -> Option<Frame> {
-        let frame = self.text.frame_on(&self.modes, &self.state, self.step_length(fps))?;
+        let frame = Frame::of(&self.text, &self.modes, &self.state, self.step_length(fps))?;
         (self.is_linear || self.is_smooth(&frame, fps)).then_some(frame)
     }
 

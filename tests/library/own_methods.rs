@@ -314,6 +314,15 @@ fn ids_come_from_file_names_and_never_shadow_built_in_methods() {
 }
 
 #[test]
+fn threads_that_read_the_same_lines_share_one_method() {
+    let read = || own_method("shared", "x += h * v; v += h * a(x, v) * 1").unwrap();
+    let methods = std::thread::scope(|scope| {
+        [(); 4].map(|()| scope.spawn(read)).map(|thread| thread.join().unwrap())
+    });
+    assert!(methods.iter().all(|method| std::ptr::eq(*method, methods[0])));
+}
+
+#[test]
 fn scene_recording_and_link_carry_the_lines() {
     let lines = "// \"mine\" \\ é\r\nv += h * a(x, v)\n\tx += h * v\n";
     let lane = LaneSpec::from_step("dir/My_Euler.step", lines.as_bytes()).unwrap();

@@ -7,9 +7,9 @@
 
 use glam::DVec3;
 
+use super::Curve;
 use super::prelude::*;
 use crate::body::{Distances, NO_BOUNDARIES, Piece};
-use crate::curve::Curve;
 
 pub(super) fn kind() -> Kind {
     Kind {

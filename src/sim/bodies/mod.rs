@@ -45,13 +45,13 @@ pub use spring::Spring;
 pub use tumble::Tumble;
 
 pub use super::body::{Body, Distances, Input, MAX_SWITCHES, NO_BOUNDARIES, Piece};
-pub use super::curve::Curve;
 pub use super::net_plan::{
     Grid, Lists, MAX_NODES, MAX_SPRINGS, NetFault, NetLayout, NetPart, NetPlan, Pin, PlannedSpring,
 };
 pub use super::parameter::{
     Fault, MAX_POINTS, MAX_VALUE, Parameter, ParameterOf, Range, TakesEffect, Text, by_key,
 };
+pub use regatta_lines::Curve;
 
 /// Every kind of body, in menu order.
 pub static BODIES: LazyLock<Vec<Arc<Kind>>> = LazyLock::new(|| {

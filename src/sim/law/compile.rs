@@ -1,14 +1,10 @@
 //! Compiles the text of a law to its tapes, and decides which names each part may use.
 
-use std::ops::Range;
+use regatta_lines::{
+    Expression, MAX_OPERATIONS, MAX_SWITCHES, Scope, Tape, is_name, is_reserved, parse, quoted,
+};
 
-use super::expression::{Expression, Scope, parse};
-use super::fault::{ExpressionFault, LawFault, Part, Remedy};
-use super::function::Function;
-use super::op::is_word;
-use super::tape::{MAX_OPERATIONS, MAX_SWITCHES, Tape};
-use super::token::is_name_start;
-use super::{LawText, T};
+use super::{ExpressionFault, LawFault, LawText, Part, T};
 
 /// The maximum number of characters of a name. It is small because a name labels a marker.
 const MAX_NAME_CHARS: usize = 24;
@@ -117,7 +113,7 @@ impl Compiler<'_> {
             .map(|(i, row)| {
                 let what = format!("`{}` has no `exact`, and another coordinate has", row.name);
                 let remedy = "give it one, or remove the others";
-                ExpressionFault::new(0..row.name.len(), what, remedy).of(Part::Coordinate(i))
+                LawFault::new(Part::Coordinate(i), 0..row.name.len(), what, remedy)
             })
             .collect();
         let given = rows.filter_map(|(i, row)| Some((Part::Exact(i), row.exact.as_deref()?)));
@@ -152,18 +148,19 @@ impl Compiler<'_> {
 
     fn tape(&self, parts: Vec<(Part, &str)>) -> Compiled {
         let mut faults = Vec::new();
-        let mut expressions: Vec<(Part, Expression)> = Vec::new();
+        let mut expressions: Vec<Expression> = Vec::new();
         for (part, text) in &parts {
             match parse(text, &PartScope { text: self.text, part: *part }) {
-                Ok(expression) => expressions.push((*part, expression)),
-                Err(fault) => faults.push(fault.of(*part)),
+                Ok(expression) => expressions.push(expression),
+                Err(ExpressionFault { span, what, remedy }) => {
+                    faults.push(LawFault { part: *part, span, what, remedy });
+                }
             }
         }
         if !faults.is_empty() {
             return Err(faults);
         }
         let first_constant = self.text.slots_of_constants().start;
-        let expressions: Vec<_> = expressions.iter().map(|(part, of)| (*part, of)).collect();
         let tape = Tape::new(self.text.inputs(), |input| input >= first_constant, &expressions);
         tape.map_err(|long| {
             let (part, text) = parts[long.expression];
@@ -173,7 +170,7 @@ impl Compiler<'_> {
                 ("operations", MAX_OPERATIONS)
             };
             let what = format!("the law has more than {most} {what}");
-            vec![ExpressionFault::new(0..text.len(), what, format!("keep at most {most}")).of(part)]
+            vec![LawFault::new(part, 0..text.len(), what, format!("keep at most {most}"))]
         })
     }
 }
@@ -187,15 +184,13 @@ pub(super) fn check_names(text: &LawText) -> Vec<LawFault> {
     let mut faults = Vec::new();
     for (part, name) in coordinates.chain(constants) {
         let mut refuse = |what: String, remedy: &str| {
-            let span: Range<usize> = 0..name.len();
-            let remedy = Remedy::Words(remedy.into());
-            faults.push(LawFault { part, span, what, remedy });
+            faults.push(LawFault::new(part, 0..name.len(), what, remedy));
         };
         let mut meanings = vec![(name.clone(), format!("`{name}`"))];
         if let Part::Coordinate(_) = part {
             meanings.push((format!("v{name}"), format!("the velocity of `{name}`")));
         }
-        let shown = super::fault::quoted(name);
+        let shown = quoted(name);
         if !is_name(name) {
             let remedy = "write letters, digits and `_`, beginning with a letter";
             refuse(format!("`{}` cannot be a name", shown.escape_debug()), remedy);
@@ -217,12 +212,4 @@ pub(super) fn check_names(text: &LawText) -> Vec<LawFault> {
         taken.extend(meanings);
     }
     faults
-}
-
-fn is_name(name: &str) -> bool {
-    name.starts_with(is_name_start) && name.chars().all(|c| is_name_start(c) || c.is_ascii_digit())
-}
-
-fn is_reserved(name: &str) -> bool {
-    is_word(name) || Function::named(name).is_some()
 }

@@ -1,9 +1,8 @@
 //! The events of a law: walls of its coordinates, at which velocities turn.
 
-use super::fault::{ExpressionFault, LawFault, Part};
-use super::form::is_linear;
-use super::tape::MAX_SWITCHES;
-use super::{Equations, FIRST_COORDINATE, LawText, MAX_EVENTS, Registers, T, Tape};
+use regatta_lines::{MAX_SWITCHES, Tape, is_linear};
+
+use super::{Equations, FIRST_COORDINATE, LawFault, LawText, MAX_EVENTS, Part, Registers, T};
 use crate::impact::Wall;
 
 /// A time (s) at which a wall that turns or stretches with time is seen to differ from that at time 0: no period of
@@ -28,8 +27,7 @@ pub(super) fn coordinates_of(text: &LawText, when: &[Tape]) -> Result<Vec<usize>
         let name = &text.coordinates[0].name;
         let remedy =
             format!("write a coordinate minus the place of the wall, such as `{name} - 1`");
-        let fault = ExpressionFault::new(0..event.when.len(), what, remedy);
-        faults.push(fault.of(Part::When(i)));
+        faults.push(LawFault::new(Part::When(i), 0..event.when.len(), what, remedy));
     }
     if faults.is_empty() { Ok(of) } else { Err(faults) }
 }
@@ -45,9 +43,7 @@ pub(super) fn check_count(text: &LawText, motion: &Tape) -> Result<(), Vec<LawFa
         _ => format!("the law has {events} events beside {} corners and jumps", motion.switches()),
     };
     let name = 0..text.events[most].name.len();
-    Err(vec![
-        ExpressionFault::new(name, what, format!("keep at most {most}")).of(Part::Event(most)),
-    ])
+    Err(vec![LawFault::new(Part::Event(most), name, what, format!("keep at most {most}"))])
 }
 
 impl Equations {
@@ -109,7 +105,7 @@ impl Equations {
     pub(crate) fn event_fault(&self, registers: &mut Registers) -> Option<LawFault> {
         let n = self.text.coordinates.len();
         let fault = |part, what: String, remedy: String| {
-            Some(ExpressionFault::new(0..self.part(part).len(), what, remedy).of(part))
+            Some(LawFault::new(part, 0..self.part(part).len(), what, remedy))
         };
         for (i, event) in self.text.events.iter().enumerate() {
             let slopes = [0.0, OTHER_TIME_S].map(|t| self.slope(registers, i, t));

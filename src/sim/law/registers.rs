@@ -1,7 +1,7 @@
 //! The registers in which a law is evaluated, for one motion or for several at once.
 
-use super::jet::Jet;
-use super::tape::Tape;
+use regatta_lines::{Jet, Tape};
+
 use super::{Equations, FIRST_COORDINATE, RUDDER, T, THROTTLE};
 
 /// The registers of one copy of a law, with its values. The values are the constants, then the coordinates at the

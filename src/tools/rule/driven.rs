@@ -1,6 +1,7 @@
 //! The top speed, the acceleration and the jump of a rule that drives its velocity without looking at the place.
 
 use super::{MAX_WATCHED, Rule};
+use crate::sim::law::Frame;
 
 /// Number of frames of the author in which gravity stops the speed of a jump.
 const FRAMES_UP: f64 = 25.0;
@@ -22,7 +23,9 @@ impl Rule {
             return [None; 2];
         }
         if self.is_linear && causes.len() == 1 {
-            let Some(frame) = self.text.frame_on(&self.modes, &causes, h) else { return [None; 2] };
+            let Some(frame) = Frame::of(&self.text, &self.modes, &causes, h) else {
+                return [None; 2];
+            };
             let (kept, gained) = (frame.map.m11, frame.offset.x);
             let top = (kept.abs() < 1.0).then_some(gained / (1.0 - kept)).and_then(some);
             return [top, some(gained * fps).filter(|_| kept != 0.0)];

@@ -82,7 +82,7 @@ impl Rule {
             if groups.iter().any(|(_, known)| known.contains(&modes)) {
                 continue;
             }
-            let frame = text.frame_on(&modes, &self.state, h)?;
+            let frame = Frame::of(text, &modes, &self.state, h)?;
             if !self.is_affine(&modes, &at) {
                 return None;
             }

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use super::Law;
 use crate::bodies::claims::{self, Checked, ClaimHorizon, Claimant};
 use crate::body::Body;
-use crate::law::{CoordinateText, Equations, LawFault, Part, Remedy};
+use crate::law::{CoordinateText, Equations, LawFault, Part};
 use crate::state::State;
 use crate::system::System;
 
@@ -69,8 +69,7 @@ pub fn check_law(
     check_start(&law)?;
     claims::check(&law, horizon).map_err(|found| {
         let part = found.coordinate.map_or(Part::Energy, Part::Exact);
-        let span = 0..equations.part(part).len();
-        LawFault { part, span, what: found.what, remedy: Remedy::Words(found.remedy.into()) }
+        LawFault::new(part, 0..equations.part(part).len(), found.what, found.remedy)
     })
 }
 

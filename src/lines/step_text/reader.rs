@@ -1,6 +1,7 @@
 //! Translates the statements of a step to operations, and finds the current value of each name that is read.
 
 use std::ops::Range;
+use std::slice;
 
 pub(super) use frames::{COST, COUNT, FIRST, FRAME_NAMES, LENGTH, NOW, REFRESH, SECOND, SHOWN};
 use functions::end_of;
@@ -10,12 +11,12 @@ use super::method::{Array, Function as OwnFunction, Machine, Taken};
 use super::paths::{SMOOTH_DAMP, damped_velocity};
 use super::statements::{Declares, Statement};
 use super::{BUILT_IN, Carried, H, Line, OTHER_NAMES, STEP_NAMES, StepText, TARGET, V, X};
-use crate::law::expression::{Expression, Node, Scope, parse, parse_condition};
-use crate::law::fault::{ExpressionFault, Parsed, Part, Remedy, fault, quoted};
-use crate::law::function::Function;
-use crate::law::op::{OPERATOR_WORDS, Op};
-use crate::law::tape::{MAX_OPERATIONS, MAX_SWITCHES, Tape};
-use crate::law::token::is_name_part;
+use crate::expression::{Expression, Node, Scope, parse, parse_condition};
+use crate::fault::{ExpressionFault, Parsed, Remedy, fault, quoted};
+use crate::function::Function;
+use crate::op::{OPERATOR_WORDS, Op};
+use crate::tape::{MAX_OPERATIONS, MAX_SWITCHES, Tape};
+use crate::token::is_name_part;
 
 mod assignment;
 mod frames;
@@ -479,7 +480,7 @@ impl<'t> Reader<'t> {
     fn constant_value(&self, expression: &Expression, span: Range<usize>) -> Parsed<f64> {
         let reads = |node: &Node| matches!(node.op, Op::Input | Op::Call | Op::Apply);
         let reads = expression.nodes.iter().any(reads);
-        let tape = || Tape::new(0, |_| false, &[(Part::Energy, expression)]).ok();
+        let tape = || Tape::new(0, |_| false, slice::from_ref(expression)).ok();
         let value = (!reads).then(tape).flatten().map(|tape| {
             let mut slots = vec![0.0; tape.slots];
             tape.prepare::<1>(slots.as_chunks_mut().0);
@@ -554,13 +555,12 @@ impl<'t> Reader<'t> {
             tables: self.nodes.tables.clone(),
         };
         let expressions: Vec<Expression> = outputs.into_iter().map(whole).collect();
-        let parts: Vec<_> = expressions.iter().map(|of| (Part::Energy, of)).collect();
-        let tape = Tape::new(self.names.len(), |input| input == H, &parts).or_else(|long| {
-            match long.are_switches {
+        let tape = Tape::new(self.names.len(), |input| input == H, &expressions).or_else(
+            |long| match long.are_switches {
                 true => too_long(last.clone(), "corners and jumps", MAX_SWITCHES),
                 false => too_long(last.clone(), "operations", MAX_OPERATIONS),
-            }
-        })?;
+            },
+        )?;
         let machine = match is_rule {
             true => Some(Machine::default()),
             false => Machine::new(self.names.len(), &self.lines, &self.functions, &self.arrays),

@@ -7,7 +7,7 @@ use std::ops::Range;
 
 use super::{H, Line, StepRegisters, StepText, TARGET, V, X};
 use crate::curve::Curve;
-use crate::law::op::Op;
+use crate::op::Op;
 
 mod compile;
 
@@ -364,6 +364,7 @@ impl StepText {
 
     /// Whether the lines call the acceleration in a loop or in a function, so that a step decides by a single
     /// coordinate.
+    #[inline]
     pub fn is_for_one_coordinate(&self) -> bool {
         self.machine.calls.iter().any(|call| call.is_repeated)
     }
@@ -374,11 +375,13 @@ impl StepText {
     }
 
     /// Whether the method takes this setting.
+    #[inline]
     pub fn takes(&self, input: Input) -> bool {
         self.inputs.iter().any(|taken| taken.input == Some(input))
     }
 
     /// Returns the order of the law by which the method follows a target; `None` if it follows none.
+    #[inline]
     pub fn law_order(&self) -> Option<u32> {
         self.takes(Input::Rate).then_some(if self.reads_velocity { 2 } else { 1 })
     }
@@ -436,6 +439,7 @@ impl StepText {
     }
 
     /// Sets a setting of a coordinate, if the method takes it.
+    #[inline]
     pub fn set_input(
         &self,
         registers: &mut StepRegisters,
@@ -464,6 +468,7 @@ impl StepText {
     }
 
     /// Sets the target of a coordinate.
+    #[inline]
     pub fn set_target(&self, registers: &mut StepRegisters, coordinate: usize, value: f64) {
         let size = registers.answer.len();
         registers.slots[TARGET * size + coordinate] = value;

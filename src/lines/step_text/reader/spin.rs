@@ -1,9 +1,9 @@
 //! Reads the lines of a step of a free spin.
 
 use super::Reader;
-use crate::law::fault::Parsed;
-use crate::law::step_text::StepText;
-use crate::law::step_text::statements::Statement;
+use crate::fault::Parsed;
+use crate::step_text::StepText;
+use crate::step_text::statements::Statement;
 
 /// The names of every such step. The first three have the slots of `x`, `v` and `h` of other steps.
 pub(in super::super) const SPIN_NAMES: [&str; 11] =

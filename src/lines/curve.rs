@@ -31,7 +31,7 @@ impl Curve {
 
     /// Returns the number of the piece at `x`, which is the number of points at or below `x`.
     #[inline]
-    pub(super) fn piece(&self, x: f64) -> i64 {
+    pub fn piece(&self, x: f64) -> i64 {
         self.points.partition_point(|point| point[0] <= x) as i64
     }
 
@@ -44,7 +44,7 @@ impl Curve {
 
     /// Returns the value of one piece at `x`, continued linearly beyond the boundaries of the piece.
     #[inline]
-    pub(super) fn on(&self, piece: i64, x: f64) -> f64 {
+    pub fn on(&self, piece: i64, x: f64) -> f64 {
         match self.ends(piece) {
             (Some([x0, y0]), Some([x1, y1])) => y0 + (x - x0) / (x1 - x0) * (y1 - y0),
             (Some([_, y]), None) | (None, Some([_, y])) => y,
@@ -62,7 +62,7 @@ impl Curve {
 
     /// Returns the signed distances of `x` to the lower and the upper boundary of a piece. A distance is negative
     /// beyond its boundary.
-    pub(super) fn distances(&self, piece: i64, x: f64) -> [f64; 2] {
+    pub fn distances(&self, piece: i64, x: f64) -> [f64; 2] {
         let (lower, upper) = self.ends(piece);
         [
             lower.map_or(f64::INFINITY, |[end, _]| above(x, end)),

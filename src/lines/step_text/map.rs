@@ -1,7 +1,7 @@
 //! The map of a step of a rule, with its derivatives and the pieces of its switches.
 
 use super::{H, StepText, SwitchKind, TARGET};
-use crate::law::jet::Jet;
+use crate::jet::Jet;
 
 /// The carried numbers after a step, and their derivatives with respect to each carried number and then the target.
 #[derive(Clone, Debug, PartialEq)]

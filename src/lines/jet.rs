@@ -2,7 +2,7 @@
 //! rounding.
 
 /// A value, its derivative and its second derivative.
-pub(super) type Jet = [f64; 3];
+pub type Jet = [f64; 3];
 
 pub(super) fn constant(value: f64) -> Jet {
     [value, 0.0, 0.0]

@@ -2,8 +2,7 @@
 
 use nalgebra::{Matrix2, Vector2};
 
-use super::powers::Powers;
-use super::{StepRegisters, StepText};
+use super::{Powers, StepRegisters, StepText};
 use crate::TickRate;
 
 /// If an eigenvalue is this close to 1, the rule stays wherever it is.
@@ -26,6 +25,29 @@ pub struct Frame {
 }
 
 impl Frame {
+    /// Returns a frame of `h` seconds of these lines as a map of up to two carried numbers, linearised about 0, on the
+    /// piece with these modes of the switches. Returns `None` if there are more numbers, or if a coefficient is not
+    /// finite.
+    pub fn of(text: &StepText, modes: &[i64], state: &[usize], h: f64) -> Option<Self> {
+        if state.len() > 2 {
+            return None;
+        }
+        let rest = vec![0.0; text.carried().len()];
+        let found = text.map_on(modes, h, &rest, 0.0);
+        let of = |numbers: &[f64]| {
+            let mut both = state.iter().map(|index| numbers[*index]);
+            Vector2::new(both.next().unwrap_or(0.0), both.next().unwrap_or(0.0))
+        };
+        let column = |n: usize| state.get(n).map_or(Vector2::zeros(), |n| of(&found.columns[*n]));
+        let frame = Self {
+            map: Matrix2::from_columns(&[column(0), column(1)]),
+            by_target: of(&found.columns[rest.len()]),
+            offset: of(&found.values),
+        };
+        let mut numbers = frame.map.iter().chain(&frame.by_target).chain(&frame.offset);
+        numbers.all(|number| number.is_finite()).then_some(frame)
+    }
+
     /// Returns the values of the two numbers at rest, first per unit of the target, then for a target of 0. Returns
     /// `None` if the numbers have no rest.
     pub fn rests(&self) -> Option<[Vector2<f64>; 2]> {
@@ -42,49 +64,6 @@ impl Frame {
 /// Whether the second number of this map is the first number of the frame before.
 pub fn remembers_place(map: &Matrix2<f64>) -> bool {
     map.m21 == 1.0 && map.m22 == 0.0
-}
-
-impl StepText {
-    /// Returns the indices of these carried numbers and of all carried numbers on which they depend.
-    pub fn with_causes(&self, mut state: Vec<usize>) -> Vec<usize> {
-        let (reads, mut next) = (self.dependencies(), 0);
-        while let Some(&index) = state.get(next) {
-            for read in &reads[index] {
-                if !state.contains(read) {
-                    state.push(*read);
-                }
-            }
-            next += 1;
-        }
-        state
-    }
-
-    /// Returns a frame of `h` seconds as a map of up to two carried numbers, linearised about 0. Returns `None` if
-    /// there are more numbers, or if a coefficient is not finite.
-    pub(crate) fn frame(&self, state: &[usize], h: f64) -> Option<Frame> {
-        self.frame_on(&[], state, h)
-    }
-
-    /// Returns the frame on the piece with these modes of the switches.
-    pub fn frame_on(&self, modes: &[i64], state: &[usize], h: f64) -> Option<Frame> {
-        if state.len() > 2 {
-            return None;
-        }
-        let rest = vec![0.0; self.carried().len()];
-        let found = self.map_on(modes, h, &rest, 0.0);
-        let of = |numbers: &[f64]| {
-            let mut both = state.iter().map(|index| numbers[*index]);
-            Vector2::new(both.next().unwrap_or(0.0), both.next().unwrap_or(0.0))
-        };
-        let column = |n: usize| state.get(n).map_or(Vector2::zeros(), |n| of(&found.columns[*n]));
-        let frame = Frame {
-            map: Matrix2::from_columns(&[column(0), column(1)]),
-            by_target: of(&found.columns[rest.len()]),
-            offset: of(&found.values),
-        };
-        let mut numbers = frame.map.iter().chain(&frame.by_target).chain(&frame.offset);
-        numbers.all(|number| number.is_finite()).then_some(frame)
-    }
 }
 
 /// The body like which a linear rule moves, per kilogram.
@@ -146,7 +125,7 @@ impl LinearRule {
         }
         let state = text.with_causes(vec![0]);
         let hz = fps.hz();
-        let Some(frame) = text.frame(&state, 1.0 / hz) else {
+        let Some(frame) = Frame::of(&text, &[], &state, 1.0 / hz) else {
             return refused(
                 "the rule carries more than two numbers, or one that is not finite",
                 ask,

@@ -3,29 +3,29 @@
 use std::ops::Range;
 
 use super::{ACCELERATION, MAX_STEP_NAMES, Reader};
-use crate::law::fault::{Parsed, fault, quoted};
-use crate::law::step_text::method::{Function, General, Input, Taken};
-use crate::law::step_text::plain::plain;
-use crate::law::step_text::statements::{Statement, statements};
-use crate::law::step_text::{Line, TARGET, X};
-use crate::law::token::is_name_part;
+use crate::fault::{Parsed, fault, quoted};
+use crate::step_text::method::{Function, General, Input, Taken};
+use crate::step_text::plain::plain;
+use crate::step_text::statements::{Statement, statements};
+use crate::step_text::{Line, TARGET, X};
+use crate::token::is_name_part;
 
 /// The maximum number of functions of a text.
 const MAX_FUNCTIONS: usize = 16;
 
 /// The functions that a text may `use`.
 const SHARED_STEPS: [(&str, &str); 11] = [
-    ("half-sine", include_str!("../../../../../assets/methods/shared/half-sine.step")),
-    ("on-group", include_str!("../../../../../assets/methods/shared/on-group.step")),
-    ("rate-of-spin", include_str!("../../../../../assets/methods/shared/rate-of-spin.step")),
-    ("remainder", include_str!("../../../../../assets/engine-loops/shared/remainder.loop")),
-    ("single", include_str!("../../../../../assets/engine-loops/shared/single.loop")),
-    ("seen", include_str!("../../../../../assets/methods/shared/seen.step")),
-    ("slope", include_str!("../../../../../assets/methods/shared/slope.step")),
-    ("solve", include_str!("../../../../../assets/methods/shared/solve.step")),
-    ("steady", include_str!("../../../../../assets/methods/shared/steady.step")),
-    ("step-size", include_str!("../../../../../assets/methods/shared/step-size.step")),
-    ("unit", include_str!("../../../../../assets/methods/shared/unit.step")),
+    ("half-sine", include_str!("../../../../assets/methods/shared/half-sine.step")),
+    ("on-group", include_str!("../../../../assets/methods/shared/on-group.step")),
+    ("rate-of-spin", include_str!("../../../../assets/methods/shared/rate-of-spin.step")),
+    ("remainder", include_str!("../../../../assets/engine-loops/shared/remainder.loop")),
+    ("single", include_str!("../../../../assets/engine-loops/shared/single.loop")),
+    ("seen", include_str!("../../../../assets/methods/shared/seen.step")),
+    ("slope", include_str!("../../../../assets/methods/shared/slope.step")),
+    ("solve", include_str!("../../../../assets/methods/shared/solve.step")),
+    ("steady", include_str!("../../../../assets/methods/shared/steady.step")),
+    ("step-size", include_str!("../../../../assets/methods/shared/step-size.step")),
+    ("unit", include_str!("../../../../assets/methods/shared/unit.step")),
 ];
 
 /// Returns the index of the statement that closes the block which the statement at `at` opens.

@@ -8,7 +8,6 @@ use std::collections::HashMap;
 use std::ops::Range;
 
 use super::expression::{Expression, Node};
-use super::fault::Part;
 use super::jet::{self, Jet};
 use super::op::Op;
 use super::switch::{ModeRule, Switch};
@@ -17,8 +16,8 @@ use crate::curve::Curve;
 /// The maximum number of operations of a tape, with which a step takes ten microseconds.
 pub const MAX_OPERATIONS: usize = 4096;
 
-/// The maximum number of switches of a tape. It is small, so that a [`Piece`](crate::bodies::Piece) is small.
-pub(super) use crate::body::MAX_SWITCHES;
+/// The maximum number of switches of a tape. It is small, so that the list of their modes is small.
+pub const MAX_SWITCHES: usize = 32;
 
 /// One operation, which reads up to three slots and writes one.
 #[derive(Clone, Copy, Debug)]
@@ -47,20 +46,23 @@ pub enum SwitchKind {
 
 /// The position of an operation in the text.
 #[derive(Clone, Debug)]
-pub(super) struct Origin {
-    pub(super) part: Part,
-    pub(super) span: Range<usize>,
+pub struct Origin {
+    /// The index of the expression.
+    pub expression: usize,
+    /// The byte range in the text of the expression.
+    pub span: Range<usize>,
 }
 
 /// The operations of one or more expressions over the same inputs. The first slots hold the inputs.
 #[derive(Clone, Debug)]
-pub(crate) struct Tape {
+pub struct Tape {
     numbers: Vec<(u16, f64)>,
     prelude: Vec<Instruction>,
     main: Vec<Instruction>,
     /// The slots of the expressions' values, in the order of the expressions.
-    pub(super) outputs: Vec<u16>,
-    pub(super) slots: usize,
+    pub outputs: Vec<u16>,
+    /// The number of slots of an evaluation.
+    pub slots: usize,
     /// The switches of the main part.
     switches: Vec<(Switch, Instruction)>,
     tables: Vec<Curve>,
@@ -69,9 +71,11 @@ pub(crate) struct Tape {
 }
 
 /// The fault of a tape that is too long or has too many switches. It begins at the expression with this index.
-pub(super) struct TooLong {
-    pub(super) expression: usize,
-    pub(super) are_switches: bool,
+pub struct TooLong {
+    /// The index of the expression.
+    pub expression: usize,
+    /// Whether there are too many switches, rather than operations.
+    pub are_switches: bool,
 }
 
 /// The key of common subexpressions, which is an operation and its arguments.
@@ -80,10 +84,13 @@ type Key = (Op, [u16; 3], u64, Vec<[u64; 2]>);
 impl Tape {
     /// Returns the tape of these expressions over `inputs` inputs. Inputs that are `fixed` change only when a parameter
     /// changes.
-    pub(super) fn new(
+    ///
+    /// # Errors
+    /// If there are more than [`MAX_OPERATIONS`] or [`MAX_SWITCHES`].
+    pub fn new(
         inputs: usize,
         fixed: impl Fn(usize) -> bool,
-        expressions: &[(Part, &Expression)],
+        expressions: &[Expression],
     ) -> Result<Self, TooLong> {
         let mut tape = Self {
             numbers: Vec::new(),
@@ -97,7 +104,7 @@ impl Tape {
         };
         let mut is_fixed: Vec<bool> = (0..inputs).map(&fixed).collect();
         let mut known: HashMap<Key, u16> = HashMap::new();
-        for (index, (part, expression)) in expressions.iter().enumerate() {
+        for (index, expression) in expressions.iter().enumerate() {
             let used = used(expression);
             let mut slots = vec![0; expression.nodes.len()];
             let rows = expression.nodes.iter().zip(&expression.spans).zip(used).enumerate();
@@ -106,7 +113,7 @@ impl Tape {
                 for (operand, &argument) in operands.iter_mut().zip(node.arguments()) {
                     *operand = slots[argument];
                 }
-                let origin = Origin { part: *part, span: span.clone() };
+                let origin = Origin { expression: index, span: span.clone() };
                 slots[n] = match node.op {
                     Op::Input => node.index as u16,
                     _ => tape.place(node, operands, expression, &mut is_fixed, &mut known, origin),
@@ -163,26 +170,27 @@ impl Tape {
     }
 
     /// Writes the numbers and runs the prelude. The slots of the constants must be set.
-    pub(super) fn prepare<const W: usize>(&self, slots: &mut [[f64; W]]) {
+    #[inline]
+    pub fn prepare<const W: usize>(&self, slots: &mut [[f64; W]]) {
         self.numbers.iter().for_each(|&(slot, number)| slots[slot as usize] = [number; W]);
         self.run_lanes(&self.prelude, slots, &[], Switch::value);
     }
 
     /// Evaluates the tape.
     #[inline]
-    pub(super) fn evaluate(&self, slots: &mut [f64]) {
+    pub fn evaluate(&self, slots: &mut [f64]) {
         self.run(slots, Switch::value);
     }
 
     /// Evaluates the tape on several motions at once. `alike` is the result of [`Tape::alike`].
     #[inline(always)]
-    pub(super) fn evaluate_lanes<const W: usize>(&self, slots: &mut [[f64; W]], alike: &[bool]) {
+    pub fn evaluate_lanes<const W: usize>(&self, slots: &mut [[f64; W]], alike: &[bool]) {
         self.run_lanes(&self.main, slots, alike, Switch::value);
     }
 
     /// Returns, for each slot, whether it has the same value in all motions, if only inputs that satisfy `differs`
     /// differ.
-    pub(super) fn alike(&self, differs: impl Fn(usize) -> bool) -> Vec<bool> {
+    pub fn alike(&self, differs: impl Fn(usize) -> bool) -> Vec<bool> {
         let mut alike: Vec<bool> = (0..self.slots).map(|slot| !differs(slot)).collect();
         for (_, operands, to, _) in self.operations() {
             alike[to as usize] = operands.iter().all(|&slot| alike[slot as usize]);
@@ -191,7 +199,8 @@ impl Tape {
     }
 
     /// Evaluates the tape with each switch in its mode of `modes`.
-    pub(super) fn evaluate_on(&self, modes: &[i64], slots: &mut [f64]) {
+    #[inline]
+    pub fn evaluate_on(&self, modes: &[i64], slots: &mut [f64]) {
         let mut modes = modes.iter();
         self.run(slots, |switch, a, b, table| {
             switch.value_on(modes.next().copied().unwrap_or(0), a, b, table)
@@ -199,7 +208,8 @@ impl Tape {
     }
 
     /// Writes the modes of the switches at the values of the last evaluation.
-    pub(super) fn write_modes(&self, slots: &[f64], modes: &mut [i64]) {
+    #[inline]
+    pub fn write_modes(&self, slots: &[f64], modes: &mut [i64]) {
         for ((switch, instruction), to) in self.switches.iter().zip(modes) {
             let [a, b, _] = instruction.operands.map(|slot| slots[slot as usize]);
             *to = switch.mode(a, b, self.table(instruction));
@@ -207,7 +217,8 @@ impl Tape {
     }
 
     /// Writes the distances of the switches to the boundaries of these modes, at the values of the last evaluation.
-    pub(super) fn write_distances(&self, slots: &[f64], modes: &[i64], to: &mut [[f64; 2]]) {
+    #[inline]
+    pub fn write_distances(&self, slots: &[f64], modes: &[i64], to: &mut [[f64; 2]]) {
         for (((switch, instruction), &mode), to) in self.switches.iter().zip(modes).zip(to) {
             let [a, b, _] = instruction.operands.map(|slot| slots[slot as usize]);
             *to = switch.distances(mode, a, b, self.table(instruction));
@@ -215,7 +226,7 @@ impl Tape {
     }
 
     /// Evaluates the tape with derivatives. The slots of the inputs must be set.
-    pub(super) fn evaluate_jets(&self, slots: &mut [Jet]) {
+    pub fn evaluate_jets(&self, slots: &mut [Jet]) {
         self.evaluate_jets_on(&[], slots);
     }
 
@@ -256,12 +267,13 @@ impl Tape {
     }
 
     /// Returns the number of switches.
-    pub(super) fn switches(&self) -> usize {
+    pub fn switches(&self) -> usize {
         self.switches.len()
     }
 
     /// Returns the mode of the switch with this index beyond a boundary of its mode.
-    pub(crate) fn neighbour(&self, index: usize, mode: i64, side: usize) -> i64 {
+    #[inline]
+    pub fn neighbour(&self, index: usize, mode: i64, side: usize) -> i64 {
         self.switches[index].0.neighbour(mode, side)
     }
 
@@ -274,15 +286,30 @@ impl Tape {
     }
 
     /// Whether an operation reads this slot, or the slot is an output.
-    pub(super) fn reads(&self, slot: usize) -> bool {
+    pub fn reads(&self, slot: usize) -> bool {
         let is_it = |read: &u16| usize::from(*read) == slot;
         self.operations().any(|(_, operands, ..)| operands.iter().any(is_it))
             || self.outputs.iter().any(is_it)
     }
 
-    /// Returns the origin of the operation that writes this slot; `None` for an input.
-    pub(super) fn origin(&self, slot: u16) -> Option<&Origin> {
-        self.origins.get(&slot)
+    /// Returns the origin of the first operation that makes an output infinite or undefined in the last evaluation, and
+    /// whether it divides by 0; `None` if all outputs are finite.
+    pub fn not_finite(&self, slots: &[f64]) -> Option<(&Origin, bool)> {
+        let value = |slot: u16| slots[slot as usize];
+        let mut slot = *self.outputs.iter().find(|&&slot| !value(slot).is_finite())?;
+        loop {
+            let (op, operands, ..) = self.operations().find(|(_, _, to, _)| *to == slot)?;
+            // The untaken branch of a choice does not matter.
+            let taken =
+                |n: &usize| op != Op::If || *n == if value(operands[0]) == 1.0 { 1 } else { 2 };
+            let mut rows = (0..operands.len()).filter(taken).map(|n| operands[n]);
+            let operand = rows.find(|operand| !value(*operand).is_finite());
+            if let Some(operand) = operand.filter(|operand| self.origins.contains_key(operand)) {
+                slot = operand;
+                continue;
+            }
+            return Some((self.origins.get(&slot)?, op == Op::Divide && value(operands[1]) == 0.0));
+        }
     }
 
     fn table(&self, instruction: &Instruction) -> Option<&Curve> {

@@ -11,6 +11,8 @@ use crate::curve::Curve;
 
 mod call;
 
+pub use call::MAX_POINTS;
+
 /// The maximum number of bytes of an expression, which is several lines of a file.
 pub const MAX_BYTES: usize = 4096;
 
@@ -77,7 +79,7 @@ pub struct Expression {
 }
 
 /// The names that an expression may use.
-pub(super) trait Scope {
+pub trait Scope {
     /// Returns the index of a name among the inputs.
     fn input(&self, name: &str) -> Option<usize>;
     /// Returns all names that the expression may use.
@@ -115,7 +117,10 @@ pub(super) trait Scope {
 }
 
 /// Reads an expression. Its last node is the value.
-pub(super) fn parse(text: &str, scope: &dyn Scope) -> Parsed<Expression> {
+///
+/// # Errors
+/// The first fault of the text.
+pub fn parse(text: &str, scope: &dyn Scope) -> Parsed<Expression> {
     parse_as(text, scope, |parser, value| parser.want_number(value))
 }
 

@@ -5,9 +5,9 @@ use std::ops::Range;
 use super::method::{Function, Taken};
 use super::plain::number_length;
 use super::{Declares, H, Line, StepText, TARGET, V};
-use crate::law::expression::{Expression, Node};
-use crate::law::function::{FUNCTIONS, Meaning, STEP_FUNCTIONS};
-use crate::law::op::{INFIXES, Infix, Level, Op};
+use crate::expression::{Expression, Node};
+use crate::function::{FUNCTIONS, Meaning, STEP_FUNCTIONS};
+use crate::op::{INFIXES, Infix, Level, Op};
 
 /// The maximum number of operations of an expression in print, in which a shared part is written out at each use.
 const MAX_PRINTED: usize = 1024;

@@ -13,12 +13,7 @@ enum Dependence {
 
 /// Whether every output is a linear function of the inputs that `moves` selects, plus a constant, with coefficients
 /// that do not change in time. `t` is the index of the time among the inputs.
-pub(super) fn is_linear(
-    tape: &Tape,
-    inputs: usize,
-    t: usize,
-    moves: impl Fn(usize) -> bool,
-) -> bool {
+pub fn is_linear(tape: &Tape, inputs: usize, t: usize, moves: impl Fn(usize) -> bool) -> bool {
     let mut of = vec![Dependence::Constant; tape.slots];
     for (input, of) in of.iter_mut().enumerate().take(inputs) {
         *of = match input {
@@ -61,7 +56,7 @@ pub(super) fn is_linear(
 
 /// Whether this input is used, and only by sines, cosines and tangents, so that a full turn of the input changes
 /// nothing.
-pub(super) fn is_angle(tape: &Tape, input: usize) -> bool {
+pub fn is_angle(tape: &Tape, input: usize) -> bool {
     let is_it = |slot: &u16| usize::from(*slot) == input;
     let mut uses = tape.operations().filter(|(_, operands, ..)| operands.iter().any(is_it));
     let is_periodic = |op: Op| matches!(op, Op::Smooth(function) if function.is_periodic);

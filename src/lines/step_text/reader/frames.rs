@@ -3,12 +3,12 @@
 use std::ops::Range;
 
 use super::Reader;
-use crate::law::expression::{Expression, Node, Scope as _};
-use crate::law::fault::{Parsed, fault, quoted};
-use crate::law::op::Op;
-use crate::law::step_text::method::{Array, Taken};
-use crate::law::step_text::statements::Statement;
-use crate::law::step_text::{H, Line, StepText, TARGET, V, X};
+use crate::expression::{Expression, Node, Scope as _};
+use crate::fault::{Parsed, fault, quoted};
+use crate::op::Op;
+use crate::step_text::method::{Array, Taken};
+use crate::step_text::statements::Statement;
+use crate::step_text::{H, Line, StepText, TARGET, V, X};
 
 /// The names of every loop. The first four have the slots of a step: the ticks of the frame so far, their time, the
 /// duration of the frame, and the length of a tick. Those with a space are for `tick` and `show`.

@@ -3,14 +3,14 @@
 use std::slice::Iter;
 
 use super::{Act, Array, Function, General, Machine, StepCall};
-use crate::law::expression::Expression;
-use crate::law::op::Op;
-use crate::law::step_text::{Line, V, X};
-use crate::law::tape::MAX_OPERATIONS;
+use crate::expression::Expression;
+use crate::op::Op;
+use crate::step_text::{Line, V, X};
+use crate::tape::MAX_OPERATIONS;
 
 impl Machine {
     /// Compiles lines with this number of names; `None` if they have more than [`MAX_OPERATIONS`] operations.
-    pub(in crate::law::step_text) fn new(
+    pub(in crate::step_text) fn new(
         names: usize,
         lines: &[Line],
         functions: &[Function],

@@ -2,7 +2,7 @@
 //! `Mathf.Exp`.
 
 use super::paths::{Component, reduce};
-use crate::law::token::is_name_part;
+use crate::token::is_name_part;
 
 /// Beginnings of lines of `assets/methods` that describe a method for people.
 const HEADINGS: [&str; 6] =

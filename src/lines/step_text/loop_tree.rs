@@ -4,7 +4,7 @@ use super::reader::{
     COST, COUNT, FIRST, FRAME_NAMES, LENGTH, NOW, REFRESH, SECOND, SHOWN, SPIN_NAMES,
 };
 use super::{H, Line, StepBody, StepText, TARGET};
-use crate::law::expression::Expression;
+use crate::expression::Expression;
 
 /// A number that a loop is given, or the moment that it shows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

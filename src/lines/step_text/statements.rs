@@ -2,8 +2,8 @@
 
 use std::ops::Range;
 
-use crate::law::fault::{Parsed, fault, quoted};
-use crate::law::token::{is_name_part, is_name_start};
+use crate::fault::{Parsed, fault, quoted};
+use crate::token::{is_name_part, is_name_start};
 
 /// A statement with the byte ranges of its parts.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -448,7 +448,7 @@ fn continues_on_next_line(before: &str, after: &str) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::law::step_text::plain::plain;
+    use crate::step_text::plain::plain;
 
     fn read(text: &str) -> Vec<String> {
         let (plain, _) = plain(text);

@@ -4,9 +4,9 @@ use std::ops::Range;
 
 use super::statements::Statement;
 use super::{BUILT_IN, OTHER_NAMES, STEP_NAMES, TARGET, V, X};
-use crate::law::fault::{ExpressionFault, fault};
-use crate::law::function::Function;
-use crate::law::token::is_name_part;
+use crate::fault::{ExpressionFault, fault};
+use crate::function::Function;
+use crate::token::is_name_part;
 
 /// Names before a function or a number that are no value.
 const NAMESPACES: [&str; 9] = ["math", "std", "f32", "f64", "glm", "np", "numpy", "this", "self"];

@@ -14,7 +14,7 @@ use super::plain::plain;
 use super::reader::{COST, FIRST, LENGTH, NOW, REFRESH, Reader, SECOND, SHOWN};
 use super::statements::{Statement, statements};
 use super::{Declares, Line, StepRegisters, StepText, TARGET};
-use crate::law::fault::ExpressionFault;
+use crate::fault::ExpressionFault;
 
 /// A frame as a loop sees it. Times are in milliseconds, or whole numbers of a unit.
 #[derive(Clone, Copy, Debug, PartialEq)]

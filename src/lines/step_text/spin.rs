@@ -10,7 +10,7 @@ use super::plain::plain;
 use super::reader::{Reader, SPIN_NAMES};
 use super::statements::statements;
 use super::{H, StepRegisters, StepText};
-use crate::law::fault::ExpressionFault;
+use crate::fault::ExpressionFault;
 
 impl StepText {
     /// Parses the lines of a step of a free spin.

@@ -3,11 +3,11 @@
 use std::ops::Range;
 
 use super::{Block, Reader};
-use crate::law::expression::{Expression, Node};
-use crate::law::fault::{Parsed, fault};
-use crate::law::op::Op;
-use crate::law::step_text::{BUILT_IN, V};
-use crate::law::tape::MAX_OPERATIONS;
+use crate::expression::{Expression, Node};
+use crate::fault::{Parsed, fault};
+use crate::op::Op;
+use crate::step_text::{BUILT_IN, V};
+use crate::tape::MAX_OPERATIONS;
 
 impl Reader<'_> {
     /// Notes that a method reads these names, of which those without a value are carried.

@@ -10,18 +10,15 @@ use std::ops::Range;
 use super::expression::Expression;
 use super::fault::{ExpressionFault, fault};
 use super::form::is_linear;
-pub use super::tape::SwitchKind;
+use super::tape::SwitchKind;
 use super::tape::Tape;
 pub use frames::{FrameInput, FrameOutput, LoopText};
-pub use linear::{AT_TARGET, Frame, NO_RETURN, remembers_place};
-pub use linear::{LinearRule, RuleBody};
 pub use loop_tree::LoopName;
 pub use map::StepMap;
 use method::{Array, Function, Machine, Taken};
 pub use method::{General, Input, Request, StepCall};
 use paths::of_one_component;
 use plain::plain;
-pub use powers::Powers;
 use reader::Reader;
 pub use statements::Declares;
 use statements::statements;
@@ -29,13 +26,11 @@ pub use tree::MethodInput;
 pub use tree::{Operation, StepBody, bracketed};
 
 mod frames;
-mod linear;
 mod loop_tree;
 mod map;
 mod method;
 mod paths;
 mod plain;
-mod powers;
 mod reader;
 mod spin;
 mod statements;
@@ -272,6 +267,20 @@ impl StepText {
         self.tape.outputs.iter().map(of).collect()
     }
 
+    /// Returns the indices of these carried numbers and of all carried numbers on which they depend.
+    pub fn with_causes(&self, mut state: Vec<usize>) -> Vec<usize> {
+        let (reads, mut next) = (self.dependencies(), 0);
+        while let Some(&index) = state.get(next) {
+            for read in &reads[index] {
+                if !state.contains(read) {
+                    state.push(*read);
+                }
+            }
+            next += 1;
+        }
+        state
+    }
+
     /// Whether a step leaves this carried number unchanged.
     pub fn leaves_unchanged(&self, index: usize) -> bool {
         let output = self.tape.outputs.get(index);
@@ -293,6 +302,7 @@ impl StepText {
     }
 
     /// Steps a body by `h` seconds. Never allocates.
+    #[inline]
     pub fn step(&self, registers: &mut StepRegisters, h: f64, target: f64) {
         let StepRegisters { slots, next, .. } = registers;
         if slots[H].to_bits() != h.to_bits() || h == 0.0 {
@@ -310,11 +320,13 @@ impl StepText {
     }
 
     /// Returns the value of a carried number of a body.
+    #[inline]
     pub fn value(&self, registers: &StepRegisters, index: usize) -> f64 {
         registers.slots[self.carried[index].input]
     }
 
     /// Sets a carried number of a body.
+    #[inline]
     pub fn set(&self, registers: &mut StepRegisters, index: usize, value: f64) {
         registers.slots[self.carried[index].input] = value;
     }

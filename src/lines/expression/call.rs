@@ -4,12 +4,14 @@ use std::ops::Range;
 
 use super::{Node, Parser, Scope, parse};
 use crate::curve::Curve;
-use crate::law::fault::{Parsed, fault};
-use crate::law::function::{Function, Meaning};
-use crate::law::op::Op;
-use crate::law::switch::{ModeRule, Switch, SwitchValue};
-use crate::law::token::Token;
-use crate::parameter::MAX_POINTS;
+use crate::fault::{Parsed, fault};
+use crate::function::{Function, Meaning};
+use crate::op::Op;
+use crate::switch::{ModeRule, Switch, SwitchValue};
+use crate::token::Token;
+
+/// The maximum number of points of a table.
+pub const MAX_POINTS: usize = 64;
 
 /// The names of a written function, which are its arguments and the length of the step.
 struct Arguments(&'static [&'static str]);

@@ -3,10 +3,10 @@
 use std::ops::Range;
 
 use super::{DAMPED_PLACE, Reader};
-use crate::law::expression::{Expression, Node, Scope};
-use crate::law::fault::{Parsed, fault, quoted};
-use crate::law::op::Op;
-use crate::law::step_text::{Declares, Line, X};
+use crate::expression::{Expression, Node, Scope};
+use crate::fault::{Parsed, fault, quoted};
+use crate::op::Op;
+use crate::step_text::{Declares, Line, X};
 
 impl Reader<'_> {
     /// Assigns the place that `SmoothDamp` leaves, and its velocity.

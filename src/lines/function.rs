@@ -8,7 +8,7 @@ use super::jet::{Jet, chain, constant, product, quotient, root, sum};
 use super::switch::{ModeRule, Switch, SwitchValue};
 
 /// A function that an expression can call.
-pub(super) struct Function {
+pub struct Function {
     pub(super) name: &'static str,
     /// The names of its arguments, for messages.
     pub(super) arguments: &'static [&'static str],
@@ -312,9 +312,8 @@ impl Function {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::law::expression::{Scope, parse};
-    use crate::law::fault::Part;
-    use crate::law::tape::Tape;
+    use crate::expression::{Scope, parse};
+    use crate::tape::Tape;
 
     struct Plane;
 
@@ -371,8 +370,9 @@ mod tests {
             let (call, reference) =
                 REFERENCES.iter().find(is_call).unwrap_or_else(|| panic!("{}", function.usage()));
             let expression = parse(call, &Plane).unwrap_or_else(|fault| panic!("{fault:?}"));
-            let parts = [(Part::Energy, &expression)];
-            let Ok(tape) = Tape::new(2, |_| false, &parts) else { panic!("{call} is too long") };
+            let Ok(tape) = Tape::new(2, |_| false, &[expression]) else {
+                panic!("{call} is too long")
+            };
             let output = usize::from(tape.outputs[0]);
             let mut numbers = 0;
             for [x, y] in [[0.4, 0.7], [0.6, 0.2], [-0.3, 0.9], [-0.7, -0.5], [0.9, -0.8]] {
