@@ -5,7 +5,7 @@ use std::fmt;
 
 use super::criterion::{TOLERANCE, VISIBLE};
 use super::outcome::Outcome;
-use crate::sim::number::{duration, significant};
+use crate::sim::number::{duration, in_unit, round, significant};
 
 /// The bounces of a lane against those of the truth, up to the first input.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -19,8 +19,17 @@ pub struct BounceFinding {
     pub drifts: bool,
     /// The time (s) since which the ball is below the floor at the end of the run.
     pub sinks_at_s: Option<f64>,
+    /// The speed in metres per second at which it passed the floor then, if nothing has turned it since.
+    pub falls_through: Option<f64>,
     /// The height in metres to which it still bounces at the end, where the truth rests.
     pub never_rests: Option<f64>,
+    /// The time in seconds by which it rests before the truth, negative if it rests later.
+    pub rests_early_s: Option<f64>,
+    /// The speed (m/s) below which its engine bounces nothing, and the height (m) of a fall to that speed, if the ball
+    /// rests early for that.
+    pub threshold: Option<[f64; 2]>,
+    /// The height in metres by which it gains at each bounce, where the truth keeps its height.
+    pub gain: Option<f64>,
     /// Where no flight is long enough to compare, the largest difference of the height, in parts of the highest true
     /// one, and its time (s).
     pub gap: Option<(f64, f64)>,
@@ -51,6 +60,7 @@ impl BounceFinding {
             let (after, own) = self.height.unwrap_or((after, 0.0));
             let part = (1.0 + own) * (1.0 + offset) - 1.0;
             self.height = Some((after, part));
+            (self.gain, self.rests_early_s) = (None, None);
             self.drifts &= own.abs() > offset.abs();
         }
         self
@@ -79,12 +89,32 @@ impl BounceFinding {
     pub(super) fn number(&self) -> (&'static str, f64, &'static str) {
         let height = self.height.filter(|(_, part)| part.abs() > TOLERANCE);
         match (self.sinks_at_s, height, self.never_rests, self.landing) {
+            _ if let Some(speed) = self.falls_through => ("speed at the floor", speed, "m/s"),
             (Some(at_s), ..) => ("sinks at", at_s, "s"),
+            _ if let Some(gain) = self.gain => ("gain a bounce", gain, "m"),
             (_, Some((_, part)), ..) => ("height error", 100.0 * part, "%"),
             (_, _, Some(height), _) => ("height that stays", height, "m"),
             (.., Some((_, _, late_s))) => ("delay", late_s, "s"),
             _ if self.gap.is_some() => ("largest error", 100.0 * self.error(), "%"),
             _ => ("height error", 0.0, "%"),
+        }
+    }
+
+    /// Returns what goes with the words, beginning with a comma; empty if nothing does.
+    pub(super) fn aside(&self) -> String {
+        match (self.threshold, self.rests_early_s) {
+            _ if self.is_luck => ", luck: lands on ticks".to_owned(),
+            (Some([speed, height]), _) => format!(
+                ", a threshold of {} m/s: no bounce below {} mm",
+                round(speed, 3),
+                significant(1e3 * height, 2)
+            ),
+            (None, Some(early_s)) => {
+                let way = if early_s > 0.0 { "early" } else { "late" };
+                let size = in_unit(early_s.abs(), |value| significant(value, 2));
+                format!(", rests {size} {way}")
+            }
+            (None, None) => String::new(),
         }
     }
 }
@@ -93,7 +123,13 @@ impl fmt::Display for BounceFinding {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let height = self.height.filter(|(_, part)| part.abs() > TOLERANCE);
         match (self.sinks_at_s, height, self.never_rests, self.landing) {
+            _ if let Some(speed) = self.falls_through => {
+                write!(f, "falls through at {} m/s", significant(speed, 2))?;
+            }
             (Some(at_s), ..) => write!(f, "sinks through the floor at {}", duration(at_s))?,
+            _ if let Some(gain) = self.gain => {
+                write!(f, "gains {} cm a bounce", significant(1e2 * gain, 2))?;
+            }
             (_, Some((after, part)), ..) => {
                 let size = significant(100.0 * part.abs(), 2);
                 let way = if part > 0.0 { "high" } else { "low" };
@@ -117,6 +153,6 @@ impl fmt::Display for BounceFinding {
             _ if self.error() < 1e-6 => f.write_str("bounces right")?,
             _ => write!(f, "bounces within {} %", significant(100.0 * self.error(), 2))?,
         }
-        if self.is_luck { f.write_str(", luck: lands on ticks") } else { Ok(()) }
+        f.write_str(&self.aside())
     }
 }

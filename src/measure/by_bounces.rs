@@ -3,10 +3,12 @@
 use std::ops::ControlFlow;
 
 use super::bounce_finding::BounceFinding;
+use super::criterion::TOLERANCE;
 use super::pace::Pace;
 use super::truth::{BodyTruth, FollowedBody, ticks};
 use super::verdict::RunFailure;
 use crate::run::race::StopReason;
+use crate::sim::integrators::EngineBounce;
 use crate::sim::{Bounces, Solver, Stepper, TickRate};
 
 /// A flight of fewer ticks is not compared: it is near the end of the bouncing, and its height is known badly.
@@ -23,6 +25,9 @@ const AT_END: f64 = 0.2;
 
 /// Depth in metres at which an engine may leave a ball at rest.
 const SLOP: f64 = 0.025;
+
+/// The largest number of true flights that are followed to a rest.
+const MAX_FLIGHTS: u64 = 1000;
 
 /// Part of a tick's way within which a ball lands on a tick.
 const ON_TICK: f64 = 1e-9;
@@ -50,6 +55,7 @@ pub(super) async fn follow_bounces(
     let mut followed = truth.follow(spec.solver(), spec.substeps, tick_hz).with_max_work(max_work);
     let (mut run, mut seen) = (BounceRun::default(), Vec::new());
     let (mut below_since, mut highest, mut highest_last) = (None, 0.0_f64, 0.0_f64);
+    let mut up_until_s = 0.0;
     let mut heights = vec![followed.body.stepper.q()[0]];
     let [sunk_s, rest_s] = [SUNK_S, AT_REST_S].map(|most| most.min(AT_END * until_s));
     let slop = if spec.method.bounce().is_some() { SLOP } else { 0.0 };
@@ -65,7 +71,11 @@ pub(super) async fn follow_bounces(
         if t + rest_s > until_s {
             highest_last = highest_last.max(y);
         }
-        below_since = if y < -slop { below_since.or(Some(t)) } else { None };
+        let is_below = y < -slop && !now.speeds[1].is_nan();
+        below_since = is_below.then(|| below_since.unwrap_or((t, now.impacts, speed)));
+        if y > LIES * highest.max(1.0) {
+            up_until_s = t;
+        }
         let has_peaked = (now.apex, now.apex_after) != (before.apex, before.apex_after);
         if now.impacts > before.impacts || has_peaked {
             seen.push((now, has_peaked, speed));
@@ -83,7 +93,10 @@ pub(super) async fn follow_bounces(
     let exact = impacts.get_or_insert_with(|| truth.start(Solver::Truth));
     found.compare(&**exact, &seen, h, if has_own_time { 0.0 } else { h });
     found.is_luck &= !has_own_time;
-    found.sinks_at_s = below_since.filter(|since| seconds - since >= sunk_s);
+    let sunk = below_since.filter(|(since, ..)| seconds - since >= sunk_s);
+    found.sinks_at_s = sunk.map(|(since, ..)| since);
+    let is_unturned = |(_, impacts, speed)| (impacts == before.impacts).then_some(speed);
+    found.falls_through = sunk.and_then(is_unturned);
     let is_cut = !truth.inputs.is_empty();
     if found.height.is_none() && found.landing.is_none() && !is_cut {
         let exact = &mut *truth.start(Solver::Truth);
@@ -96,6 +109,14 @@ pub(super) async fn follow_bounces(
     });
     let is_up = found.sinks_at_s.is_none() && highest_last > LIES * highest.max(1.0);
     found.never_rests = (rests && is_up).then_some(highest_last);
+    if found.sinks_at_s.is_none() && !is_up {
+        let body = &followed.body.stepper;
+        let mut push = vec![0.0; body.q().len()];
+        body.acceleration(seconds, body.q(), &push.clone(), &mut push);
+        let speed = spec.method.bounce().map_or(0.0, EngineBounce::threshold);
+        let threshold = [speed, speed * speed / (2.0 * push[before.coordinate].abs())];
+        found.compare_rest(&**exact, (up_until_s, 3.0 * h), LIES * highest.max(1.0), threshold);
+    }
     run
 }
 
@@ -128,6 +149,30 @@ fn flight_s(exact: &dyn Stepper, impacts: u64) -> Option<f64> {
 }
 
 impl BounceFinding {
+    /// Compares the time (s) up to which a run is higher than `lies` (m), known within `within_s`, with that of the
+    /// truth. The threshold of the engine is the cause of an early rest if it ends the last flights only.
+    fn compare_rest(
+        &mut self,
+        exact: &dyn Stepper,
+        (up_until_s, within_s): (f64, f64),
+        lies: f64,
+        threshold: [f64; 2],
+    ) {
+        // A height that is not known is that of a very short flight.
+        let falls_below = |height: f64| {
+            let mut flights = (1..MAX_FLIGHTS).map_while(|impact| exact.true_bounce(impact));
+            Some(flights.find(|[_, apex]| apex.is_nan() || *apex <= height)?[0])
+        };
+        let Some(rest_s) = falls_below(lies) else { return };
+        let early_s = rest_s - up_until_s;
+        if early_s.abs() > TOLERANCE * rest_s + within_s {
+            self.rests_early_s = Some(early_s);
+            let slow_s = falls_below(threshold[1].max(lies)).filter(|_| threshold[1].is_finite());
+            let is_cause = |slow_s: f64| 0.0 < early_s && early_s <= 2.0 * (rest_s - slow_s);
+            self.threshold = slow_s.is_some_and(is_cause).then_some(threshold);
+        }
+    }
+
     /// Compares records of a run, each with whether it has a new peak and with the speed then, with the truth from its
     /// start, at ticks of `h` (s). A rule that handles an impact at the end of a tick may be late by up to `waits` (s).
     fn compare(&mut self, exact: &dyn Stepper, seen: &[(Bounces, bool, f64)], h: f64, waits: f64) {
@@ -171,6 +216,12 @@ impl BounceFinding {
             if next.1.abs() > worst.1.abs() { *next } else { worst }
         };
         self.height = heights.first().map(|first| heights.iter().fold(*first, farther));
+        let doubled = self.height.filter(|(after, part)| *after > 1 && *part > 1.0);
+        self.gain = doubled.and_then(|(after, part)| {
+            let [first, last] = [exact.true_bounce(1)?[1], exact.true_bounce(after)?[1]];
+            let is_kept = (last / first - 1.0).abs() <= TOLERANCE;
+            is_kept.then_some(part * last / after as f64)
+        });
         let third = heights.len().div_ceil(3);
         let mean =
             |part: &[(u64, f64)]| part.iter().map(|it| it.1).sum::<f64>() / part.len() as f64;

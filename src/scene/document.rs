@@ -300,11 +300,17 @@ fn read_lanes(
     }
 
     let key = if is_listed { METHOD_LIST.key } else { METHOD.key };
-    for (n, (span, lane)) in lanes.iter().enumerate() {
+    let wanted: Vec<_> = match is_given {
+        true => lanes.iter().map(|(span, lane)| (span.clone(), lane.impact)).collect(),
+        false => vec![(top.span(IMPACT.key), impact)],
+    };
+    for (span, impact) in wanted {
         let mut kinds = bodies.iter().filter_map(|body| body.kind.as_ref());
-        if let Some(refusal) = kinds.find_map(|kind| kind.impact_refusal(lane.impact)) {
-            top.report_fault(span.clone(), refusal, "write another `impact`, or the `energy`");
+        if let Some(refusal) = kinds.find_map(|kind| kind.impact_refusal(impact)) {
+            top.report_fault(span, refusal, "write another `impact`, or the `energy`");
         }
+    }
+    for (n, (span, lane)) in lanes.iter().enumerate() {
         check_method(key, lane.method, span.clone(), bodies, top);
         if let Some((first, _)) = lanes[..n].iter().find(|(_, earlier)| earlier == lane) {
             let (line, _) = position(text, first.start);

@@ -114,8 +114,10 @@ impl<B: Body, D: Propagator<B> + Clone> Stepper for BodyStepper<B, D> {
         if lost > 0.0 {
             *lost_time = *lost_before + lost;
         }
-        if const { B::HAS_WALLS } {
-            *bounces = propagator.bounces().unwrap_or(*bounces);
+        if const { B::HAS_WALLS }
+            && let Some(now) = propagator.bounces()
+        {
+            bounces.follow(now);
         }
         stepped
     }
@@ -123,7 +125,7 @@ impl<B: Body, D: Propagator<B> + Clone> Stepper for BodyStepper<B, D> {
     fn change(&mut self, t: f64, change: Change<'_>) -> bool {
         let Self { placed: BodyAtState { body, state, bounces, .. }, propagator } = self;
         let is_changed = propagator.jump(t, change, &mut body.system, state);
-        *bounces = propagator.bounces().unwrap_or(*bounces);
+        *bounces = *propagator.bounces().unwrap_or(bounces);
         is_changed
     }
 

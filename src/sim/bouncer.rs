@@ -55,6 +55,7 @@ impl<P: Clone, V: Vector> Bouncer<P, V> {
     }
 
     /// Makes one tick of `n` substeps by an engine's rule for the wall that is nearer.
+    #[cold]
     fn engine_tick<B: Body<Vector = V>>(
         &mut self,
         engine: EngineBounce,
@@ -87,6 +88,7 @@ impl<P: Clone, V: Vector> Bouncer<P, V> {
     }
 
     /// Makes one step of the method, with its impacts.
+    #[inline]
     fn part<B>(&mut self, body: &Counted<B>, t: f64, h: f64, y: &mut StateOf<B>) -> Stepped
     where
         B: Body<Vector = V>,
@@ -103,8 +105,14 @@ impl<P: Clone, V: Vector> Bouncer<P, V> {
             self.bounces.beyond = -contact.height(y);
             self.add_height(&body.system, contact, y);
         }
+        // One copy of both would wait until both have been written.
+        self.from.q.assign(&y.q);
         let is_within = matches!(self.rule, Rule::Within(_) | Rule::Swept);
-        if is_within && let Some(contact) = self.rest(body, t, y) {
+        let is_at_rest = |it: Contact| it.height(y) == 0.0 && it.speed(y) == 0.0;
+        if is_within
+            && Contact::all(&body.system, t).any(is_at_rest)
+            && let Some(contact) = self.rest(body, t, y)
+        {
             // Other coordinates go on.
             if y.q.components().len() > 1 {
                 self.inner.step(body, t, h, 1, y)?;
@@ -114,13 +122,31 @@ impl<P: Clone, V: Vector> Bouncer<P, V> {
             contact.set_speed(0.0, y);
             return Ok(());
         }
-        self.from.assign(y);
+        self.from.v.assign(&y.v);
         self.inner.step(body, t, h, 1, y)?;
         if self.rule == Rule::OwnLines {
             self.notice(body, [t, h], y);
             return Ok(());
         }
-        let Some(contact) = Contact::beyond(&body.system, t + h, y) else { return Ok(()) };
+        match Contact::beyond(&body.system, t + h, y) {
+            Some(contact) => self.meet(contact, body, [t, h], y),
+            None => Ok(()),
+        }
+    }
+
+    /// Handles the impact of a step from `self.from` that ended at `y`, beyond a wall.
+    #[cold]
+    fn meet<B>(
+        &mut self,
+        contact: Contact,
+        body: &Counted<B>,
+        [t, h]: [f64; 2],
+        y: &mut StateOf<B>,
+    ) -> Stepped
+    where
+        B: Body<Vector = V>,
+        P: Propagator<B>,
+    {
         match self.rule {
             Rule::Within(locating) => return self.locate(locating, body, [t, h], y),
             Rule::Swept => self.sweep(contact, body, [t, h], y),
@@ -156,6 +182,7 @@ impl<P: Clone, V: Vector> Bouncer<P, V> {
     }
 
     /// Adds the height of the flight at the end of a tick or before its first step.
+    #[inline]
     fn add_height<B: Body<Vector = V>>(&mut self, body: &B, contact: Contact, y: &State<V>) {
         let distance = contact.height(y);
         let still = body.wall(contact.index, 0.0).unwrap_or(contact.wall).at_rest();
@@ -183,6 +210,7 @@ impl<P: Clone, V: Vector> Bouncer<P, V> {
     }
 
     /// Returns the wall against which the force presses the body at rest.
+    #[cold]
     fn rest<B: Body<Vector = V>>(
         &mut self,
         body: &Counted<B>,
@@ -195,6 +223,7 @@ impl<P: Clone, V: Vector> Bouncer<P, V> {
     }
 
     /// Handles the impact of a step on the straight line, and goes straight on.
+    #[cold]
     fn sweep<B>(&mut self, contact: Contact, body: &Counted<B>, [t, h]: [f64; 2], y: &mut State<V>)
     where
         B: Body<Vector = V>,
@@ -206,7 +235,7 @@ impl<P: Clone, V: Vector> Bouncer<P, V> {
         self.land(body, t + part * h, y, [speed, back]);
     }
 
-    /// Handles the impacts of a step from `self.from` that ended at `y`, beyond a wall.
+    /// Finds the impacts of a step from `self.from` that ended at `y`, beyond a wall.
     fn locate<B>(
         &mut self,
         locating: Locating,
@@ -374,7 +403,8 @@ where
             self.bounces.part();
         }
         self.last_h = h;
-        let part = h / f64::from(n);
+        // A division would take longer than a step.
+        let part = if n == 1 { h } else { h / f64::from(n) };
         match self.engine {
             Some(engine) => self.engine_tick(engine, body, ([t, h], n), y),
             None => (0..n).try_for_each(|i| self.part(body, t + part * f64::from(i), part, y))?,
@@ -413,7 +443,7 @@ where
         self.inner.lost_time()
     }
 
-    fn bounces(&self) -> Option<Bounces> {
-        Some(self.bounces)
+    fn bounces(&self) -> Option<&Bounces> {
+        Some(&self.bounces)
     }
 }

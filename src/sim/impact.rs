@@ -241,8 +241,8 @@ pub struct Bounces {
     pub depth: f64,
     /// How far the body was beyond the wall where the rule met it at the last impact; 0 if it found the impact itself.
     pub beyond: f64,
-    /// The last heights of this flight, newest last, and how many are known.
-    heights: [f64; 3],
+    /// The last two heights, newest last, and how many of this flight are known.
+    heights: [f64; 2],
     known: u8,
 }
 
@@ -262,7 +262,7 @@ impl Bounces {
 
     /// Returns the height above the lower wall, where that is at time 0, at the end of the last tick.
     pub fn height(&self) -> f64 {
-        self.heights[2]
+        self.heights[1]
     }
 
     /// Forgets the heights of this flight.
@@ -270,11 +270,23 @@ impl Bounces {
         self.known = 0;
     }
 
+    /// Copies the record of the next tick, which seldom has more than another height.
+    #[inline]
+    pub(super) fn follow(&mut self, now: &Self) {
+        let seldom = |it: &Self| (it.impacts, it.apex_after, it.apex, it.coordinate);
+        if seldom(self) != seldom(now) {
+            *self = *now;
+        }
+        (self.distance, self.depth) = (now.distance, now.depth);
+        (self.heights, self.known) = (now.heights, now.known);
+    }
+
     /// Adds the height of a flight at the end of a tick, and the distance from the lower wall.
+    #[inline]
     pub(super) fn add(&mut self, height: f64, distance: f64) {
         (self.depth, self.distance) = (self.depth.max(-distance), distance);
-        let [_, before, last] = self.heights;
-        self.heights = [before, last, height];
+        let [before, last] = self.heights;
+        self.heights = [last, height];
         self.known = (self.known + 1).min(3);
         // Half of the curvature, and the slope, in heights per tick.
         let (bend, slope) = ((before - last + (height - last)) / 2.0, (height - before) / 2.0);

@@ -65,13 +65,13 @@ impl NearWall {
     }
 
     fn jolt(&mut self, h: f64) {
-        const THRESHOLD: f64 = 1.0;
         const SLOP: f64 = 0.02;
         const PART: f64 = 0.2;
         let is_near = self.height < MARGIN;
         let (before, free) = (self.speed, self.speed + h * self.push);
         let gap = self.height.max(0.0) / h;
-        let bounces = free < -THRESHOLD && -free > gap && self.restitution > 0.0;
+        let bounces =
+            free < -EngineBounce::Jolt.threshold() && -free > gap && self.restitution > 0.0;
         let least = if bounces { -self.restitution * before } else { -gap };
         self.touches = is_near && free < least;
         self.speed = if self.touches { least } else { free };
@@ -128,12 +128,12 @@ impl NearWall {
     }
 
     fn pybullet(&mut self, h: f64) {
-        const THRESHOLD: f64 = 0.2;
         const SLOP: f64 = 1e-5;
         const PART: f64 = 0.08;
         let is_near = self.height < MARGIN;
         let free = self.speed + h * self.push;
-        let rebound = if free.abs() >= THRESHOLD { self.restitution * free.abs() } else { 0.0 };
+        let bounces = free.abs() >= EngineBounce::Pybullet.threshold();
+        let rebound = if bounces { self.restitution * free.abs() } else { 0.0 };
         let gap = self.height + SLOP;
         let closed = if gap > 0.0 { gap } else { PART * gap };
         let least = rebound - closed / h;

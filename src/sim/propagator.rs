@@ -66,7 +66,7 @@ pub(super) trait Propagator<B: Body>: Send + 'static {
     }
 
     /// Returns the record of a body that meets walls; `None` for the truth, and for other bodies.
-    fn bounces(&self) -> Option<Bounces> {
+    fn bounces(&self) -> Option<&Bounces> {
         None
     }
 

@@ -288,6 +288,19 @@ fn a_ball_reverses_in_time_where_method_and_rule_do() {
     }
 }
 
+#[test]
+fn no_flight_under_locate_is_higher_than_the_true_one() {
+    let mut dice = Dice::new(8204);
+    for n in 0..2000 {
+        let start = [dice.between(0.5, 2.0), dice.between(-1.0, 3.0)];
+        let (body, id) = (ball(start, dice.between(0.5, 1.0)), ["velocity-verlet", "rk4"][n % 2]);
+        for (after, apex) in (1..).zip(flights(body.clone(), id, "locate", 3.0).0) {
+            let [_, wanted] = body.bounce(&body.start(), after).unwrap();
+            assert!(apex <= wanted + 1e-12, "{apex} after {after}: {body:?}");
+        }
+    }
+}
+
 fn head(rest: &str) -> String {
     format!("title = 'x'\ntick_hz = 60\nseconds = 5\n{rest}\n")
 }
@@ -401,6 +414,36 @@ fn verdict_on(ball: &str, (hz, seconds): (u32, f64), method_id: &str, rule: &str
     let head = format!("{head}methods = ['{method_id}']\nimpact = '{rule}'\n");
     let scene = Scene::parse("x.toml", &format!("{head}{ball}")).unwrap();
     Judge::new(&scene).verdict(scene.lanes[0], scene.tick_hz).to_string()
+}
+
+#[test]
+fn a_verdict_names_thresholds_early_rests_gains_and_falls() {
+    let ball = |height: f64| format!("[[ball]]\nheight_m = {height:?}\n");
+    let threshold = ", a threshold of 1 m/s: no bounce below 51 mm";
+    let mut pairs: Vec<_> = [
+        (1.0, 60, "engine-jolt", "engine", threshold),
+        (1.0, 60, "engine-box2d", "engine", threshold),
+        (0.04, 60, "engine-jolt", "engine", threshold),
+        (1.0, 60, "engine-rapier", "engine", " s early"),
+        (1.0, 240, "engine-pybullet", "engine", ", rests 3.5 s early"),
+        (1.0, 60, "semi-implicit-euler", "clamp", " s early"),
+        (1.0, 60, "rk4", "locate", "accurate · bounces right"),
+        (1.0, 60, "velocity-verlet", "clamp", "% too high after"),
+        (1.0, 60, "velocity-verlet", "penalty", "bounces"),
+    ]
+    .map(|(height, hz, id, rule, wanted)| (verdict_on(&ball(height), (hz, 8.0), id, rule), wanted))
+    .into();
+    let lines = "v += a(x, v) * h; x += v * h; if x < 0 && x > -0.05 { x = 0; v = -0.8 * v }";
+    let slab = LaneSpec::plain(own_method("slab", lines).unwrap());
+    let scene = Scene::built_in("ball").unwrap();
+    let falls = Judge::new(&scene).verdict(slab, scene.tick_hz);
+    pairs.push((falls.to_string(), "dies away · falls through at 4."));
+    pairs.push((verdict("perpetual", "explicit-euler", "clamp"), "grows · gains 14 cm a bounce"));
+    // Narrow rows leave out what goes with the words.
+    let wordings = falls.wordings(false);
+    assert_eq!(wordings.len(), 2, "{wordings:?}");
+    pairs.retain(|(found, wanted)| !found.contains(wanted));
+    assert!(pairs.is_empty(), "{pairs:#?}");
 }
 
 #[test]

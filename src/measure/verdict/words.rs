@@ -331,7 +331,13 @@ impl Verdict {
         let in_brackets = self.in_brackets(is_named);
         let word = self.word().to_owned() + &in_brackets;
         let already = self.already().map(|already| already + BETWEEN + &self.line(is_named));
-        already.into_iter().chain([self.line(is_named), word]).collect()
+        let line = self.line(is_named);
+        let brief = match &self.finding {
+            Finding::Bounced(found) => Some(line.replace(&found.aside(), "")),
+            _ => None,
+        };
+        let brief = brief.filter(|brief| *brief != line);
+        already.into_iter().chain([line]).chain(brief).chain([word]).collect()
     }
 
     /// Describes a swing, whose exact one has this half width, as an eye sees it: `twice as wide every 2.1 s`. Anything

@@ -188,11 +188,9 @@ impl Ball {
         self.floor_amplitude > 0.0
     }
 
-    /// Returns the place, the velocity and the acceleration of the floor at time `t` (s).
-    fn floor(&self, t: f64) -> [f64; 3] {
-        if !self.has_moving_floor() {
-            return [0.0; 3];
-        }
+    /// Returns the place, the velocity and the acceleration of a floor that moves, at time `t` (s).
+    #[cold]
+    fn moved_floor(&self, t: f64) -> [f64; 3] {
         let (size, per_s) = (self.floor_amplitude, TAU * self.floor_frequency);
         let (sin, cos) = libm::sincos(per_s * t);
         [size * sin, size * per_s * cos, -size * per_s * per_s * sin]
@@ -280,6 +278,13 @@ impl Ball {
         let before = known.iter().filter(|known| known.from == begun && is_before(known));
         let last = before.max_by_key(|known| known.flights).copied();
         last.unwrap_or(Flights { from: begun, at: from, ..Flights::default() })
+    }
+
+    /// Returns the acceleration by soft walls.
+    #[cold]
+    fn soft_push(&self, t: f64, y: f64, v: f64) -> f64 {
+        let walls = (0..).map_while(|index| self.wall(index, t));
+        walls.map(|wall| wall.soft_push(from_ref(&y), from_ref(&v))).sum()
     }
 
     /// Returns how long the flight from a state at or above the floor lasts, in seconds, and the speed at its end.
@@ -382,9 +387,7 @@ impl System for Ball {
     fn acceleration(&self, t: f64, y: &f64, v: &f64, a: &mut f64) {
         *a = -self.gravity - self.drag * v;
         if self.is_soft {
-            for wall in (0..).map_while(|index| self.wall(index, t)) {
-                *a += wall.soft_push(from_ref(y), from_ref(v));
-            }
+            *a += self.soft_push(t, *y, *v);
         }
     }
 }
@@ -404,9 +407,12 @@ impl Body for Ball {
         !self.has_moving_floor()
     }
 
+    // Every tick asks for its walls.
+    #[inline]
     fn wall(&self, index: usize, t: f64) -> Option<Wall> {
         let (side, [at, velocity, acceleration]) = match index {
-            0 => (1.0, self.floor(t)),
+            0 if self.has_moving_floor() => (1.0, self.moved_floor(t)),
+            0 => (1.0, [0.0; 3]),
             1 if self.ceiling > 0.0 => (-1.0, [self.ceiling, 0.0, 0.0]),
             _ => return None,
         };

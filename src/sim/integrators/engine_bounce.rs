@@ -23,3 +23,15 @@ pub enum EngineBounce {
     /// p2-es, whose contact gives way: a rebound loses more the heavier the ball, and the shorter the tick.
     P2,
 }
+
+impl EngineBounce {
+    /// Returns the speed in metres per second up to which the engine bounces nothing; 0 if there is none.
+    pub fn threshold(self) -> f64 {
+        match self {
+            Self::Soft { threshold, .. } => threshold,
+            Self::Jolt => 1.0,
+            Self::Pybullet => 0.2,
+            Self::Chipmunk | Self::Mujoco | Self::Cannon | Self::P2 => 0.0,
+        }
+    }
+}

@@ -230,6 +230,8 @@ fn events_that_are_no_walls_are_refused_with_a_remedy() {
     };
     assert!(energy("").unwrap_err().contains("needs the `energy`"));
     assert!(energy("energy = 'vy^2/2 + g*y'").is_ok());
+    let for_all = format!("impact = 'energy'\n{}", falling("start = 1", "-g", 1.0, "y"));
+    assert!(parse(&for_all).unwrap_err().contains("needs the `energy`"));
     // A law that never reaches its wall is a law.
     assert!(parse(&floor(&format!("when = 'y + 9000'\n{then}"))).is_ok());
 }
