@@ -84,11 +84,13 @@ pub fn run(
         // A closed window needs no event.
         on_interrupt(Box::new(move || _ = window.send_event(Event::Interrupted)));
     }
-    let SceneFiles { read, opened, keep } = files;
+    let SceneFiles { read, opened, methods, keep } = files;
     if let Some((path, _)) = &opened {
         list_as_file(&mut studio.deck, path);
     }
-    let watch = FileWatch::new(read, opened, proxy.clone());
+    // Files of lines are watched by their bytes.
+    let methods = methods.into_iter().map(|path| (path, String::new()));
+    let watch = FileWatch::new(read, opened.into_iter().chain(methods).collect(), proxy.clone());
     studio.viewer.preferences.is_recorded = keep.is_some();
     let analysed = studio.analysis_request();
     let analysis = AnalysisWorker::new(analysed.clone());

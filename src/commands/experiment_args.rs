@@ -8,7 +8,7 @@ use super::error::Error;
 use super::experiment::{Experiment, PathOrName, scene_names, seconds};
 use super::id::IMPACT;
 use super::output::Input;
-use super::own_file::METHOD_OR_FILE;
+use super::own_file::{NAMED_METHOD, NamedMethod, load_method};
 use super::scene_file;
 use super::spring::SpringArgs;
 use super::tick_rate::TickRateArgs;
@@ -34,9 +34,9 @@ pub(super) struct ExperimentArgs {
     ///
     /// Give the option again for each, to race them. A file that ends in .step is a method of your own: `regatta help
     /// step`.
-    #[arg(long = "method", value_name = "ID|FILE", value_parser = METHOD_OR_FILE)]
+    #[arg(long = "method", value_name = "ID|FILE", value_parser = NAMED_METHOD)]
     #[arg(hide_possible_values = true)]
-    methods: Vec<&'static Method>,
+    methods: Vec<NamedMethod>,
 
     /// A rule for impacts of a ball, or several
     ///
@@ -56,7 +56,7 @@ impl ExperimentArgs {
             Some((scene, text)) => (self.applied_to(scene)?, text),
             None => self.read(self.scene())?,
         };
-        let (mode, selected) = lineup(&scene, &self.methods, asked);
+        let (mode, selected) = lineup(&scene, &self.methods(), asked);
         let mode = if self.impacts.len() > 1 { Mode::Race } else { mode };
         Ok(Experiment { scene, text, selected, mode, loop_trace: None })
     }
@@ -76,8 +76,9 @@ impl ExperimentArgs {
     fn applied_to(&self, scene: Scene) -> Result<Scene, Error> {
         let tick_hz = self.tick_rate.tick_rate().unwrap_or(scene.tick_hz);
         let scene = scene.at_tick_hz(tick_hz);
-        self.methods.iter().try_for_each(|method| scene_file::check_method(&scene, method))?;
-        let scene = scene.with_methods(&self.methods);
+        let methods = self.methods();
+        methods.iter().try_for_each(|method| scene_file::check_method(&scene, method))?;
+        let scene = scene.with_methods(&methods);
         if self.impacts.is_empty() {
             return Ok(scene);
         }
@@ -86,7 +87,7 @@ impl ExperimentArgs {
                 "--impact is for scenes with a ball or a law with events, such as --scene ball",
             ));
         }
-        let scene = scene.with_impacts(&self.methods, &self.impacts);
+        let scene = scene.with_impacts(&methods, &self.impacts);
         let mut lanes = scene.lanes.iter();
         let of_law = |impact| scene.bodies.iter().find_map(|it| it.kind.impact_refusal(impact));
         let refused =
@@ -113,6 +114,24 @@ impl ExperimentArgs {
         scene_file::input(self.scene()).filter(|_| !self.is_a_spring())
     }
 
+    fn methods(&self) -> Vec<&'static Method> {
+        self.methods.iter().map(|(method, _)| *method).collect()
+    }
+
+    /// Returns the files of a person's own methods.
+    pub(super) fn method_files(&self) -> impl Iterator<Item = &Path> {
+        self.methods.iter().filter_map(|(_, file)| file.as_deref())
+    }
+
+    /// Reads a scene as [`Self::read`] does, under the methods that the files hold by now.
+    pub(super) fn read_anew(&self, path: &Path) -> Result<(Scene, String), Error> {
+        let mut now = self.clone();
+        for (method, file) in &mut now.methods {
+            *method = file.as_deref().map_or(Ok(*method), load_method)?;
+        }
+        now.read(path)
+    }
+
     /// Returns the same options with `scene`. If the options already choose a scene, methods or a tick rate, they stay
     /// unchanged.
     pub(super) fn or_scene(&self, scene: &Path) -> Self {
@@ -136,7 +155,7 @@ impl ExperimentArgs {
 
     /// Returns the lanes of the methods that the options name, set up as in `scene`.
     pub(super) fn lanes_named(&self, scene: &Scene) -> Vec<LaneSpec> {
-        scene.lanes_of(&self.methods)
+        scene.lanes_of(&self.methods())
     }
 
     pub(super) fn names_no_method(&self) -> bool {

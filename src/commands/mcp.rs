@@ -63,7 +63,10 @@ const KEPT_BACK: [&str; 9] =
     ["bless", "diff", "force", "frame-rows", "out", "plot", "report", "round-off", "threads"];
 
 /// Versions of the protocol, of which the first is offered to a client of another.
-const VERSIONS: [&str; 3] = ["2025-06-18", "2025-03-26", "2024-11-05"];
+const VERSIONS: [&str; 4] = ["2025-11-25", "2025-06-18", "2025-03-26", "2024-11-05"];
+/// The schemas of what the commands print, and the member that holds a list, for a structured answer is an object.
+const SCHEMAS: &str = include_str!("../../assets/schema.json");
+const ROWS: &str = "rows";
 /// Most bytes of a message, and of an answer without its picture.
 const MAX_BYTES: u64 = 1 << 20;
 const MAX_PICTURE_BYTES: u64 = 1 << 24;
@@ -86,21 +89,31 @@ pub(super) fn run(_: &McpArgs) -> Result<(), Error> {
             _ if line.iter().all(u8::is_ascii_whitespace) => continue,
             _ => (),
         }
-        if line.len() as u64 == MAX_BYTES && !line.ends_with(b"\n") {
-            return Err(Error::failed(format!("a message has more than {MAX_BYTES} bytes")));
-        }
-        if let Some(answer) = answer(&line) {
+        let found = if line.len() as u64 == MAX_BYTES && !line.ends_with(b"\n") {
+            _ = input.skip_until(b'\n');
+            let why = format!("a message has more than {MAX_BYTES} bytes");
+            Some(failed(&Value::Null, (NO_REQUEST, why)))
+        } else {
+            match serde_json::from_slice(&line) {
+                Ok(message) => answer(&message),
+                Err(why) => Some(failed(&Value::Null, (NO_JSON, why.to_string()))),
+            }
+        };
+        if let Some(answer) = found {
             print_json(format!("{answer}\n"))?;
         }
     }
 }
 
-/// Returns the answer to a message; `None` to a notification.
-fn answer(line: &[u8]) -> Option<Value> {
-    let message: Value = match serde_json::from_slice(line) {
-        Ok(message) => message,
-        Err(why) => return Some(failed(&Value::Null, (NO_JSON, why.to_string()))),
-    };
+/// Returns the answer to a message, or to each of several in a list; `None` to a notification and to an answer.
+fn answer(message: &Value) -> Option<Value> {
+    if let Some(all) = message.as_array().filter(|all| !all.is_empty()) {
+        let answers: Vec<Value> = all.iter().filter_map(answer).collect();
+        return (!answers.is_empty()).then(|| answers.into());
+    }
+    if message.get("result").or(message.get("error")).is_some() {
+        return None;
+    }
     let id = message.get("id");
     let Some(method) = message.get("method").and_then(Value::as_str) else {
         let why = "a message needs a method".to_owned();
@@ -190,7 +203,7 @@ fn described(command: &clap::Command, fixed: &'static [&'static str]) -> Value {
     }
     let about = command.get_about().map(ToString::to_string).unwrap_or_default();
     let more = command.get_after_long_help().map(ToString::to_string).unwrap_or_default();
-    json!({
+    let mut tool = json!({
         "name": command.get_name(),
         "description": format!("{about}\n\n{more}"),
         "inputSchema": {
@@ -200,7 +213,30 @@ fn described(command: &clap::Command, fixed: &'static [&'static str]) -> Value {
             "additionalProperties": false,
         },
         "annotations": {"readOnlyHint": true, "openWorldHint": false},
-    })
+    });
+    if let Some(schema) = output_schema(command.get_name()) {
+        tool["outputSchema"] = schema;
+    }
+    tool
+}
+
+/// Returns the schema of the structured answer of a tool, if it has one.
+fn output_schema(tool: &str) -> Option<Value> {
+    let all: Value = serde_json::from_str(SCHEMAS).ok()?;
+    let of_tool = all["$defs"].as_object()?.iter().filter(|(name, _)| {
+        // Such as `list methods` and `trace --impacts`.
+        name.split(' ').next() == Some(tool)
+    });
+    let schemas: Vec<&Value> = of_tool.map(|(_, schema)| schema).collect();
+    match schemas[..] {
+        [] => None,
+        [object] if object["type"] == "object" => Some(object.clone()),
+        _ => Some(json!({
+            "type": "object",
+            "properties": {ROWS: {"anyOf": schemas}},
+            "required": [ROWS],
+        })),
+    }
 }
 
 /// Runs a tool, and returns what it says. A run that fails is an answer too.
@@ -221,7 +257,7 @@ fn call(asked: &Value) -> Result<Value, Fault> {
         let Some((key, arg)) = arguments(command, fixed).find(|(name, _)| name == key) else {
             let known: Vec<_> = arguments(command, fixed).map(|(name, _)| name).collect();
             let why = format!("{name} has no argument {key:?}; it takes {}", known.join(", "));
-            return Err((NO_ARGUMENTS, why));
+            return Ok(refused(&why));
         };
         match value {
             Value::Null | Value::Bool(false) => (),
@@ -240,7 +276,12 @@ fn call(asked: &Value) -> Result<Value, Fault> {
     }
     let is_picture = *name == "capture";
     let said = output_of(name, options.into_iter().chain(operands), is_picture);
-    said.or_else(|why| Ok(json!({"content": [text(&why)], "isError": true})))
+    Ok(said.unwrap_or_else(|why| refused(&why)))
+}
+
+/// Returns the result of a tool that did not answer.
+fn refused(why: &str) -> Value {
+    json!({"content": [text(why)], "isError": true})
 }
 
 /// Returns a value as it is written on a command line.
@@ -286,7 +327,13 @@ fn output_of(
     let notes = Some(text(&notes)).filter(|notes| notes["text"] != "");
     let content: Vec<Value> =
         [Some(answer).filter(|it| it["text"] != ""), notes].into_iter().flatten().collect();
-    Ok(json!({"content": content, "isError": !is_fine}))
+    let structured = match serde_json::from_slice(&said) {
+        Ok(Value::Array(rows)) => json!({ROWS: rows}),
+        Ok(object @ Value::Object(_)) => object,
+        _ => return Ok(json!({"content": content, "isError": !is_fine})),
+    };
+    // A run that differs fails at the command line, and is an answer here.
+    Ok(json!({"content": content, "structuredContent": structured, "isError": false}))
 }
 
 /// Reads a pipe to its end, or to one byte more than `most`.

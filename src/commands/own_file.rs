@@ -1,6 +1,6 @@
 //! A person's own methods and loops, in files that end in `.step` and in `.loop`.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use super::argument::brief;
@@ -13,6 +13,19 @@ use crate::sim::integrators::Method;
 
 /// Parser for the id of a method, or for the path of a `.step` file.
 pub(super) const METHOD_OR_FILE: Id<&Method> = Id { files: &[(STEP, load_method)], ..METHOD };
+
+/// A method that an option names, and its file if it is a person's own.
+pub(super) type NamedMethod = (&'static Method, Option<PathBuf>);
+
+/// Parser as [`METHOD_OR_FILE`], which keeps the path.
+pub(super) const NAMED_METHOD: Id<NamedMethod> = Id {
+    lists: METHOD.lists,
+    spellings: METHOD.spellings,
+    files: &[(STEP, |path| Ok((load_method(path)?, Some(path.to_owned()))))],
+    ..Id::new(METHOD.thing, || {
+        (METHOD.all)().into_iter().map(|(id, method)| (id, (method, None))).collect()
+    })
+};
 
 /// Parser for the id of a game loop, or for the path of a `.loop` file.
 pub(super) const LOOP_OR_FILE: Id<Arc<PolicyCard>> = Id { files: &[(FRAMES, load_loop)], ..LOOP };

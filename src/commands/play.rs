@@ -271,9 +271,11 @@ fn without_display(
 /// they name. Its errors read as on the command line.
 fn files(args: &ExperimentArgs, experiment: &Experiment) -> SceneFiles {
     let given = args.clone();
-    let read =
-        move |path: &Path| given.read(path).map_err(|error| error.mistakes(&Renderer::plain()));
+    let read = move |path: &Path| {
+        given.read_anew(path).map_err(|error| error.mistakes(&Renderer::plain()))
+    };
     let is_file = scene_file::is_file(args.scene());
     let opened = is_file.then(|| (args.scene().to_owned(), experiment.text.clone()));
-    SceneFiles { read: Arc::new(read), opened, keep: None }
+    let methods = args.method_files().map(Path::to_owned).collect();
+    SceneFiles { read: Arc::new(read), opened, methods, keep: None }
 }

@@ -21,9 +21,9 @@ use crate::run::diff::Comparison;
 use crate::run::race::{Entrant, Mode};
 use crate::run::{Run, StartSettings};
 use crate::scene::{Action, LaneSpec, Scene, SceneErrors, ShownError};
-use crate::sim::TickRate;
 use crate::sim::bodies::TakesEffect;
 use crate::sim::integrators::Method;
+use crate::sim::{TickRate, own_method_id};
 
 /// Name that a custom spring has on the list of scenes.
 const MY_SPRING: &str = "my spring";
@@ -163,8 +163,9 @@ fn act_as_in_file(studio: &mut Studio, actions: Vec<Action>) {
     }
 }
 
-/// Whether a person's own method with this id is in the open scene.
-pub fn races_own_method(studio: &Studio, id: &str) -> bool {
+/// Whether a person's own method is in the open scene, from a file whose name without its extension is `stem`.
+pub fn races_own_method(studio: &Studio, stem: &str) -> bool {
+    let id = own_method_id(stem);
     studio.scene().own_methods.iter().any(|own| own.id == id)
 }
 

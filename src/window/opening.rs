@@ -28,6 +28,8 @@ pub struct SceneFiles {
     pub read: ReadScene,
     /// The file of the window's studio, and its text.
     pub opened: Option<(PathBuf, String)>,
+    /// The files of a person's own methods that the window starts with.
+    pub methods: Vec<PathBuf>,
     /// The function that saves the recording of the run as it grows, if it is recorded.
     pub keep: Option<KeepRecording>,
 }

@@ -35,7 +35,8 @@ impl Window {
             let scene = Scene::from_bytes(&name, &bytes).map_err(Vec::from)?;
             Ok((scene, String::from_utf8_lossy(&bytes).into_owned()))
         };
-        let files = SceneFiles { read: Arc::new(read), opened: None, keep: None };
+        let files =
+            SceneFiles { read: Arc::new(read), opened: None, methods: Vec::new(), keep: None };
         run(Studio::of_session(session), WindowSettings::default(), files)
     }
 }

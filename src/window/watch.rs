@@ -29,18 +29,19 @@ pub(super) struct FileWatch {
 }
 
 impl FileWatch {
-    /// Starts the thread. It watches no file at first, except the one that is open already, with its text. It reads
+    /// Starts the thread. It watches no file at first, except those that are open already, with their texts. It reads
     /// files with `read`. It sends an event for each file that it has read, and for each that changes, is deleted or
     /// comes back.
     pub(super) fn new(
         read: ReadScene,
-        opened: Option<(PathBuf, String)>,
+        opened: Vec<(PathBuf, String)>,
         events: EventLoopProxy<Event>,
     ) -> Self {
         let (files, sent) = channel();
         thread::spawn(move || {
-            let watched = opened.and_then(|(path, text)| WatchedFile::of_scene(path, text));
-            watch(&read, watched.into_iter().collect(), &sent, &events);
+            let watched = opened.into_iter();
+            let watched = watched.filter_map(|(path, text)| WatchedFile::of_scene(path, text));
+            watch(&read, watched.collect(), &sent, &events);
         });
         Self { files }
     }

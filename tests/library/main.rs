@@ -25,6 +25,7 @@ mod engines;
 mod events;
 mod exact_curve;
 mod exact_flows;
+mod faults;
 mod formulas;
 mod frame_traces;
 mod guide;

@@ -17,7 +17,7 @@ fn parsed(text: &str) -> Scene {
 }
 
 /// The lanes that differ from the checks of a recording, run as `regatta verify` runs it.
-fn wrong_lanes(scene: &Scene) -> Vec<LaneId> {
+pub(crate) fn wrong_lanes(scene: &Scene) -> Vec<LaneId> {
     let mut session = Session::racing(scene.clone().into());
     let mut wrong = Vec::new();
     for check in &scene.checks {

@@ -50,26 +50,7 @@ fn agreeing_with_a_failed_truth_does_not_count() {
 }
 
 #[test]
-fn a_lead_after_a_late_kick_includes_the_lead_before_it() {
-    // The lead at the last crossing by the columns of `trace`, from which 0.18 s are left.
-    let kicked = "[[spring]]\nmass_kg = 1\nstiffness_n_per_m = 39.47841760435743\n[[command]]\nat_s = 10\nkick = 1.0";
-    for (id, lead_s) in [
-        ("improved-euler", 0.0335),
-        ("semi-implicit-euler", 0.0151),
-        ("implicit-midpoint", -0.0163),
-    ] {
-        let found = verdict(&scene(20.0, kicked), id, 60);
-        let early_s = found.comparison().and_then(|it| it.early_s).expect("a lead");
-        assert!((early_s / lead_s - 1.0).abs() < 0.05, "{id}: {early_s} s, not {lead_s}");
-    }
-}
-
-#[test]
-fn a_verdict_describes_the_motion_and_not_its_faintest_mode() {
-    // Runge-Kutta takes the fastest of the chain's modes within seconds, and a seventh of its energy in ten minutes.
-    let found = verdict(&built_in("chain"), "rk4", 60);
-    assert_eq!(found.outcome(), Outcome::LooksRight, "{found}");
-    assert!(found.long_term.halves_in_s.is_none_or(|halves| halves > 3600.0), "{found:?}");
+fn a_growth_that_nobody_sees_within_the_scene_looks_right() {
     // Improved Euler doubles the swing in 769 s, which nobody sees in 20.
     let found = verdict(&built_in("spring"), "improved-euler", 60);
     assert_eq!(found.outcome(), Outcome::LooksRight);
@@ -87,22 +68,6 @@ fn a_motion_that_settles_is_reported_as_settled() {
     );
     let has_settled = |detail: &String| detail.ends_with(", settled by 20 s");
     assert!(found.details().iter().any(has_settled), "{:?}", found.details());
-}
-
-#[test]
-fn an_orbit_flung_out_is_not_judged_as_bounded() {
-    let radial = scene(20.0, "[[orbit]]\nmu_m3_per_s2 = 1000\nx0_m = 10\nvy0_m_per_s = 0.01");
-    for id in ["explicit-euler", "rk4", "semi-implicit-euler", "velocity-verlet"] {
-        let found = verdict(&radial, id, 60);
-        let word = found.outcome();
-        assert!(word > Outcome::LooksRight, "{id}: {found}");
-        if found.error().unwrap() > 100.0 {
-            assert!(
-                matches!(word, Outcome::Grows | Outcome::BlewUp | Outcome::NoTruth),
-                "{id}: {found}"
-            );
-        }
-    }
 }
 
 #[test]

@@ -132,18 +132,23 @@ pub(crate) fn a_file_changed_on_disk_is_taken_with_its_state_unless_it_is_broken
 }
 
 pub(crate) fn changed_lines_of_a_method_go_on_from_the_state_in_the_window() {
-    let (_folder, path) = file("mine.step", "v += h * a(x, v); x += h * v");
-    let desk = Desk::open("--scene spring");
-    type_path(&desk, &path);
-    desk.press("Return");
-    until("the method", || desk.title().contains("mine").then_some(()));
-    desk.press("space");
-    until("a pause", || desk.title().contains("(paused").then_some(()));
-    let title = desk.title();
-    desk.still();
-    let sight = desk.sight();
-    std::fs::write(&path, "x += h * v; v += h * a(x, v)").unwrap();
-    until("a notice", || (desk.sight() != sight).then_some(()));
-    assert_eq!(desk.title(), title);
-    desk.quit();
+    let (_folder, path) = file("My_Step.step", "v += h * a(x, v); x += h * v");
+    for options in ["", &format!(" --method {}", path.display())] {
+        std::fs::write(&path, "v += h * a(x, v); x += h * v").unwrap();
+        let desk = Desk::open(&format!("--scene spring{options}"));
+        if options.is_empty() {
+            type_path(&desk, &path);
+            desk.press("Return");
+        }
+        until("the method", || desk.title().contains("my-step").then_some(()));
+        desk.press("space");
+        until("a pause", || desk.title().contains("(paused").then_some(()));
+        let title = desk.title();
+        desk.still();
+        let sight = desk.sight();
+        std::fs::write(&path, "x += h * v; v += h * a(x, v)").unwrap();
+        until("a notice", || (desk.sight() != sight).then_some(()));
+        assert_eq!(desk.title(), title);
+        desk.quit();
+    }
 }

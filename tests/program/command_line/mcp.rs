@@ -55,6 +55,7 @@ fn every_tool_describes_its_arguments_and_none_writes_a_file() {
     let tools = found[0]["result"]["tools"].as_array().unwrap();
     assert_eq!(tools.len(), 16);
     for tool in tools {
+        assert_eq!(tool["outputSchema"]["type"] == "object", tool["name"] != "capture", "{tool}");
         let schema = &tool["inputSchema"];
         let properties = schema["properties"].as_object().unwrap();
         for name in schema["required"].as_array().unwrap() {
@@ -80,14 +81,18 @@ fn a_mistake_of_an_assistant_is_answered_and_the_server_goes_on() {
         call(6, "trace", &json!({"scene": "spring", "seconds": 100_000})),
         request(7, "ping", &json!({})),
         call(8, "list", &json!(["metrics"])),
+        " ".repeat((1 << 20) + 5) + "5",
+        json!({"id": 9, "result": {}}).to_string(),
+        format!("[{}, {}]", request(10, "ping", &json!({})), json!({"method": "initialized"})),
     ]);
-    let codes: Vec<_> = found[..5]
+    let codes: Vec<_> = found[..4]
         .iter()
-        .chain(&found[8..])
+        .chain(&found[8..10])
         .map(|it| it["error"]["code"].as_i64().unwrap())
         .collect();
-    assert_eq!(codes, [-32700, -32600, -32601, -32602, -32602, -32602]);
-    for (at, remedy) in [(5, "did you mean spring?"), (6, "ask for less")] {
+    assert_eq!(codes, [-32700, -32600, -32601, -32602, -32602, -32600]);
+    assert_eq!(found[10..], [json!([{"jsonrpc": "2.0", "id": 10, "result": {}}])]);
+    for (at, remedy) in [(4, "it takes scene"), (5, "did you mean spring?"), (6, "ask for less")] {
         let result = &found[at]["result"];
         assert_eq!(result["isError"], true);
         assert!(result["content"][0]["text"].as_str().unwrap().contains(remedy), "{result}");

@@ -29,7 +29,10 @@ const RUNS: &[(&str, &str)] = &[
     ("list engine-loops", "list engine-loops"),
     ("list keys", "list keys"),
     ("loop", "loop --trace steady-60 --policy fixed --policy whole-refresh"),
-    ("port", "port --to engine-jolt --frequency 1.5 --damping-ratio 0.1"),
+    ("loop", "loop --trace tests/data/frame-traces/presentmon_test_case_0.csv --policy fixed"),
+    ("loop", "loop --trace edge --policy fixed --follow x+=(target-x)*8*dt"),
+    ("port", "port --frequency 1.5 --damping-ratio 1.2"),
+    ("port", "port --frequency 1.5 --drive --decimation 4"),
     ("rule", "rule v*=0.9;x+=v*dt"),
     ("rule", "rule v-=9.81*dt;x+=v*dt;if(x<0){x=0;v=-0.8*v}"),
     ("show", "show rk4"),
@@ -68,7 +71,7 @@ fn faults(value: &Value, schema: &Value, place: &str, found: &mut Vec<String>) {
             }
         }
         for (name, inner) in object {
-            match schema["properties"].get(name) {
+            match schema["properties"].get(name).or(schema.get("additionalProperties")) {
                 Some(known) => faults(inner, known, &format!("{place}.{name}"), found),
                 None => found.push(format!("{place}: {name} is not described")),
             }
@@ -107,6 +110,8 @@ fn every_command_that_answers_in_json_prints_what_the_schema_says() {
     fs::write(folder.path().join("run.toml"), RUN).unwrap();
     let link = said("link run.toml");
     check("verify", &said(&format!("verify {} --format json", link.trim())));
+    said("capture --scene spring --frames 2 --size 64x36 --out clip");
+    check("verify", &said("verify clip --format json"));
     for (file, method) in [("a.csv", "rk4"), ("b.csv", "midpoint")] {
         let rows = stdout_of(&format!("trace --scene spring --method {method} --seconds 1"));
         fs::write(folder.path().join(file), rows).unwrap();
