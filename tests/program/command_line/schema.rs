@@ -15,6 +15,8 @@ const RUN: &str = "title = \"run\"\ntick_hz = 60\nseconds = 1\nmethods = [\"rk4\
 const RUNS: &[(&str, &str)] = &[
     ("advise", "advise --frequency 1.5 --method rk4 --method explicit-euler"),
     ("advise", "advise --scene ball --method velocity-verlet --impact clamp"),
+    ("advise", "advise --scene engines --method rk4 --method explicit-euler"),
+    ("advise", "advise --scene damped --method rk4 --method explicit-euler --rates"),
     ("chapter", "chapter"),
     ("cloud", "cloud --scene liouville --points 100 --seconds 1"),
     ("fixture", "fixture --scene spring --seconds 1"),
