@@ -234,6 +234,25 @@ const DRIVEN: &[Column<VisibleMotion>] = &[
     Column::shown("lasts", "LASTS s", |seen| digits(seen.jump.map(|[_, seconds]| seconds), 4)),
 ];
 
+/// Largest difference of a drive between frame rates, as a part, that no line is about.
+const SAME_DRIVE: f64 = 0.01;
+
+/// Says that the top speed or the acceleration of a driven rule depends on the frame rate, if it does.
+fn uneven_drive(motions: &[VisibleMotion]) -> Option<String> {
+    let [first, .., last] = motions else { return None };
+    let of = |drive: fn(&VisibleMotion) -> Option<f64>| drive(first).zip(drive(last));
+    let (name, (slow, fast)) = (of(|seen| seen.top_speed).map(|both| ("top speed", both)))
+        .or_else(|| of(|seen| seen.accelerates).map(|both| ("acceleration", both)))?;
+    let is_uneven = (slow - fast).abs() > SAME_DRIVE * slow.abs().max(fast.abs());
+    let [slow, fast] = [slow, fast].map(|drive| significant(drive, 4));
+    is_uneven.then(|| {
+        format!(
+            "the {name} depends on the frame rate: {slow} at {}, {fast} at {}\n",
+            first.fps, last.fps
+        )
+    })
+}
+
 /// Returns the tables of a rule.
 fn tables(rule: &Rule) -> String {
     let motions = rule.motions();
@@ -246,6 +265,7 @@ fn tables(rule: &Rule) -> String {
     if motions.iter().any(is_driven) {
         said += "\n";
         said += &text(DRIVEN, &motions, "  ");
+        said += &uneven_drive(&motions).unwrap_or_default();
     }
     if let Some(speed) = rule.jump_speed() {
         said += &format!("a jump starts with v = {}\n", significant(speed, 4));

@@ -8,7 +8,7 @@
 use std::ops::Range;
 
 use super::expression::Expression;
-use super::fault::{ExpressionFault, fault};
+use super::fault::{ExpressionFault, Remedy, fault};
 use super::form::is_linear;
 use super::tape::SwitchKind;
 use super::tape::Tape;
@@ -19,7 +19,7 @@ use method::{Array, Function, Machine, Taken};
 pub use method::{General, Input, Request, StepCall};
 use paths::of_one_component;
 use plain::plain;
-use reader::Reader;
+use reader::{Reader, SPIN_NAMES};
 pub use statements::Declares;
 use statements::statements;
 pub use tree::MethodInput;
@@ -186,7 +186,19 @@ impl StepText {
     /// The first fault, with its byte range in the text.
     pub fn read(text: &str) -> Result<Self, ExpressionFault> {
         Self::check_size(text)?;
-        Self::read_lines(text, None)
+        match Self::read_lines(text, None) {
+            Err(other) if text.contains(SPIN_NAMES[0]) && Self::read_spin(text).is_ok() => {
+                Err(ExpressionFault {
+                    what: "these lines step a free spin in space".into(),
+                    remedy: Remedy::Words(
+                        "write a step of `x` and `v`: a free spin takes the methods of the list"
+                            .into(),
+                    ),
+                    ..other
+                })
+            }
+            read => read,
+        }
     }
 
     fn check_size(text: &str) -> Result<(), ExpressionFault> {
@@ -450,6 +462,8 @@ mod tests {
             ("x +=", 4..4, "the expression is empty"),
             ("while x < 1 { x += 1 }", 0..5, "`while` cannot stand in a rule"),
             ("fail; x = 1", 0..4, "`fail` cannot stand in a rule"),
+            ("qw = qw; let k = y", 17..18, "unknown name `y`"),
+            ("use unit\nqw *= unit(qw, qx, qy, qz)", 4..8, "these lines step a free spin in space"),
             ("takes mass: of it\nx = 1", 6..10, "no body gives a step `mass`"),
             ("use glue; x = a(x, v)", 4..8, "nothing shared is called `glue`"),
             ("return x; x = a(x, v)", 0..6, "`return` cannot stand in a step"),

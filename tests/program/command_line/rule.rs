@@ -167,3 +167,22 @@ fn a_rule_with_a_floor_is_answered_by_what_its_bounces_do() {
     let swing: Value = serde_json::from_str(&swing).unwrap();
     assert!(swing["bounce"].is_null());
 }
+
+#[test]
+fn a_drive_that_depends_on_the_frame_rate_says_so() {
+    for (lines, wanted) in [
+        (
+            "v -= 6; x += v*dt",
+            "the acceleration depends on the frame rate: −180.0 at 30, −1440 at 240",
+        ),
+        (
+            "v += 2000*dt; v *= 0.92; x += v*dt",
+            "the top speed depends on the frame rate: 766.7 at 30, 95.83 at 240",
+        ),
+        ("v -= 9.81*dt; x += v*dt", ""),
+    ] {
+        let said = String::from_utf8(rule(&[lines]).stdout).unwrap();
+        let line = said.lines().find(|line| line.contains("depends on the frame rate"));
+        assert_eq!(line.unwrap_or_default(), wanted, "{lines}");
+    }
+}
