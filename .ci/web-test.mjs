@@ -302,7 +302,7 @@ try {
     hold(`complaints: ${driven.complaints.join("; ")}`, driven.complaints.length === 0);
     hold(`not found: ${server.missing.join(", ")}`, server.missing.length === 0);
 } catch (reason) {
-    // Apart from a claim that does not hold, for a process of a browser may end by itself.
+    // Not 1, for a process of a browser may end by itself, and then what was asked of its page meanwhile does not hold.
     console.error(`${browser} goes no further: ${reason.stack ?? reason}`);
     process.exitCode = 3;
 } finally {
@@ -311,4 +311,4 @@ try {
 }
 failures.forEach((failure) => console.error(`FAILED ${failure}`));
 console.log(`${passed} passed, ${failures.length} failed`);
-process.exit(failures.length ? 1 : process.exitCode);
+process.exit(process.exitCode ?? (failures.length ? 1 : 0));
