@@ -158,8 +158,9 @@ fn command_line() -> clap::Command {
 /// Describes every tool.
 fn tools() -> Value {
     let cli = command_line();
+    let schemas: Value = serde_json::from_str(SCHEMAS).unwrap_or_default();
     let all = TOOLS.iter().filter_map(|(name, fixed)| {
-        cli.find_subcommand(name).map(|command| described(command, fixed))
+        cli.find_subcommand(name).map(|command| described(command, fixed, &schemas))
     });
     json!({"tools": all.collect::<Vec<_>>()})
 }
@@ -183,8 +184,8 @@ fn takes_many(arg: &Arg) -> bool {
         || arg.get_num_args().is_some_and(|count| count.max_values() > 1)
 }
 
-/// Describes a tool with the schema of its arguments.
-fn described(command: &clap::Command, fixed: &'static [&'static str]) -> Value {
+/// Describes a tool with the schema of its arguments, and that of its answer from all `schemas`.
+fn described(command: &clap::Command, fixed: &'static [&'static str], schemas: &Value) -> Value {
     let mut properties = Map::new();
     let mut required = Vec::new();
     for (name, arg) in arguments(command, fixed) {
@@ -214,15 +215,14 @@ fn described(command: &clap::Command, fixed: &'static [&'static str]) -> Value {
         },
         "annotations": {"readOnlyHint": true, "openWorldHint": false},
     });
-    if let Some(schema) = output_schema(command.get_name()) {
+    if let Some(schema) = output_schema(schemas, command.get_name()) {
         tool["outputSchema"] = schema;
     }
     tool
 }
 
-/// Returns the schema of the structured answer of a tool, if it has one.
-fn output_schema(tool: &str) -> Option<Value> {
-    let all: Value = serde_json::from_str(SCHEMAS).ok()?;
+/// Returns the schema of the structured answer of a tool from `all`, if it has one.
+fn output_schema(all: &Value, tool: &str) -> Option<Value> {
     let of_tool = all["$defs"].as_object()?.iter().filter(|(name, _)| {
         // Such as `list methods` and `trace --impacts`.
         name.split(' ').next() == Some(tool)

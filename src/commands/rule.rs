@@ -234,7 +234,7 @@ const DRIVEN: &[Column<VisibleMotion>] = &[
     Column::shown("lasts", "LASTS s", |seen| digits(seen.jump.map(|[_, seconds]| seconds), 4)),
 ];
 
-/// Largest difference of a drive between frame rates, as a part, that no line is about.
+/// Part by which a drive may differ between frame rates before a line says so.
 const SAME_DRIVE: f64 = 0.01;
 
 /// Says that the top speed or the acceleration of a driven rule depends on the frame rate, if it does.

@@ -8,7 +8,7 @@
 use std::ops::Range;
 
 use super::expression::Expression;
-use super::fault::{ExpressionFault, Remedy, fault};
+use super::fault::{ExpressionFault, fault};
 use super::form::is_linear;
 use super::tape::SwitchKind;
 use super::tape::Tape;
@@ -187,16 +187,11 @@ impl StepText {
     pub fn read(text: &str) -> Result<Self, ExpressionFault> {
         Self::check_size(text)?;
         match Self::read_lines(text, None) {
-            Err(other) if text.contains(SPIN_NAMES[0]) && Self::read_spin(text).is_ok() => {
-                Err(ExpressionFault {
-                    what: "these lines step a free spin in space".into(),
-                    remedy: Remedy::Words(
-                        "write a step of `x` and `v`: a free spin takes the methods of the list"
-                            .into(),
-                    ),
-                    ..other
-                })
-            }
+            Err(other) if text.contains(SPIN_NAMES[0]) && Self::read_spin(text).is_ok() => fault(
+                other.span,
+                "these lines step a free spin in space",
+                "write a step of `x` and `v`: a free spin takes the methods of the list",
+            ),
             read => read,
         }
     }

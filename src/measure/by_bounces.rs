@@ -107,7 +107,8 @@ pub(super) async fn follow_bounces(
         let is_known = exact.advance(0.0, until_s - rest_s, 1).is_ok();
         is_known && exact.v()[before.coordinate] == 0.0
     });
-    let is_up = found.sinks_at_s.is_none() && highest_last > LIES * highest.max(1.0);
+    let lies = LIES * highest.max(1.0);
+    let is_up = found.sinks_at_s.is_none() && highest_last > lies;
     found.never_rests = (rests && is_up).then_some(highest_last);
     if found.sinks_at_s.is_none() && !is_up {
         let body = &followed.body.stepper;
@@ -115,7 +116,7 @@ pub(super) async fn follow_bounces(
         body.acceleration(seconds, body.q(), &push.clone(), &mut push);
         let speed = spec.method.bounce().map_or(0.0, EngineBounce::threshold);
         let threshold = [speed, speed * speed / (2.0 * push[before.coordinate].abs())];
-        found.compare_rest(&**exact, (up_until_s, 3.0 * h), LIES * highest.max(1.0), threshold);
+        found.compare_rest(&**exact, (up_until_s, 3.0 * h), lies, threshold);
     }
     run
 }

@@ -32,7 +32,7 @@ pub(crate) use registers::LawLanes;
 pub use registers::Registers;
 pub use text::{CoordinateText, EventText, LawText, Layout};
 
-// A piece of a motion has the modes of a tape, and a table as many points as a curve of a body.
+// The same limits hold for any body, and `sim` is also built without lines.
 const _: () = assert!(regatta_lines::MAX_SWITCHES == body::MAX_SWITCHES);
 const _: () = assert!(regatta_lines::MAX_POINTS == crate::MAX_POINTS);
 

@@ -15,7 +15,7 @@ use super::integrators::step_rule::StepRule;
 use super::integrators::{
     AnyIntegrator, BuildIntegrator, Family, METHODS, Method, Needs, Only, integrator,
 };
-use super::law::{ExpressionFault, Input, LinearRule, Remedy, RuleBody, StepText};
+use super::law::{ExpressionFault, Input, LinearRule, RuleBody, StepText};
 use super::state::State;
 use super::system::{Coupling, System};
 use super::tick_rate::TickRate;
@@ -139,13 +139,11 @@ impl Entry {
 pub fn own_method(id: &str, text: &str) -> Result<&'static Method, ExpressionFault> {
     let read = StepText::read(text)?;
     if read.acceleration_at().is_none() {
-        return Err(ExpressionFault {
-            span: 0..text.len(),
-            what: "no line calls `a(x, v)`, so that the lines are a rule".into(),
-            remedy: Remedy::Words(
-                "give its `fps` in a scene, or its file in the place of one; or call the acceleration: `v += h * a(x, v)`".into(),
-            ),
-        });
+        return Err(ExpressionFault::new(
+            0..text.len(),
+            "no line calls `a(x, v)`, so that the lines are a rule",
+            "give its `fps` in a scene, or its file in the place of one; or call the acceleration: `v += h * a(x, v)`",
+        ));
     }
     let only = only(&read);
     let entry = Entry::of(id, &OwnLines::Method(Arc::new(read)));
@@ -238,11 +236,8 @@ pub fn own_rule(id: &str, text: &str, fps: TickRate) -> Result<&'static Method, 
 /// The same as for [`own_rule`].
 pub fn linear_rule(text: &str, fps: TickRate) -> Result<LinearRule, ExpressionFault> {
     let read = StepText::read_rule(text, "leave `fps` out: these lines are a method")?;
-    LinearRule::new(read, fps).map_err(|[what, remedy]| ExpressionFault {
-        span: 0..text.len(),
-        what,
-        remedy: Remedy::Words(remedy),
-    })
+    LinearRule::new(read, fps)
+        .map_err(|[what, remedy]| ExpressionFault::new(0..text.len(), what, remedy))
 }
 
 /// Returns the method id for a file whose name without its extension is `stem`. The id has the letters and digits of

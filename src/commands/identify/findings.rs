@@ -384,9 +384,9 @@ pub(super) fn report_text(found: &Identification, log: &Log, mass: f64) -> Strin
         }
         _ => best.into_iter().collect(),
     };
-    let mut engines: Vec<&Method> = named.iter().map(|candidate| candidate.method).collect();
-    engines.dedup();
-    lines.extend(engines.into_iter().filter_map(|method| {
+    let mut methods: Vec<&Method> = named.iter().map(|candidate| candidate.method).collect();
+    methods.dedup();
+    lines.extend(methods.into_iter().filter_map(|method| {
         let about = match method.own_text() {
             Some(_) => own_lines(method),
             None => method.engine?.checked_against()?,

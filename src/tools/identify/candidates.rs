@@ -49,7 +49,7 @@ const HELD_RARITY: f64 = 12.0;
 const CHANGED_ENGINE_RARITY: f64 = 8.0;
 /// Twice the log-odds against substeps in a method that a game implements itself.
 const CHANGED_METHOD_RARITY: f64 = 20.0;
-/// Twice the log-odds against a form of one's own.
+/// Twice the log-odds against a step by hand that no method takes.
 const FORM_RARITY: f64 = 20.0;
 /// Twice the log-odds against a number of substeps that few people set.
 const UNUSUAL_SUBSTEPS_RARITY: f64 = 24.0;
