@@ -101,8 +101,8 @@ impl Equations {
     }
 
     /// Returns the fault of the first event that is no wall with the values of `registers`, or after which the law
-    /// still goes into its wall.
-    pub(crate) fn event_fault(&self, registers: &mut Registers) -> Option<LawFault> {
+    /// still goes into its wall. The law may not start beyond a wall, from coordinates `start`.
+    pub(crate) fn event_fault(&self, registers: &mut Registers, start: &[f64]) -> Option<LawFault> {
         let n = self.text.coordinates.len();
         let fault = |part, what: String, remedy: String| {
             Some(LawFault::new(part, 0..self.part(part).len(), what, remedy))
@@ -115,6 +115,15 @@ impl Equations {
                 return fault(Part::When(i), what.into(), "write `y - 1` for a wall at 1".into());
             };
             let name = &self.text.coordinates[wall.coordinate].name;
+            if wall.height(start) < 0.0 {
+                let other = if event.falls { "rises" } else { "falls" };
+                let what = format!("the law starts beyond `{}`", event.name);
+                let remedy = format!(
+                    "start `{name}` on the other side of {}, or write `falling = {}` for an event where `when` {other}",
+                    wall.at, !event.falls
+                );
+                return fault(Part::When(i), what, remedy);
+            }
             for exponent in -3..5 {
                 let (mut q, mut v) = (vec![0.0; n], vec![0.0; n]);
                 q[wall.coordinate] = wall.at;

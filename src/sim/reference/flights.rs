@@ -147,19 +147,21 @@ impl<V: Vector> Ahead<V> {
             && last[1].is_nan()
             && (has_peaked || !landed.is_empty() && wall.speed(before.at.v.components()) > 0.0)
         {
-            last[1] = top(body, before, t, (work, &mut difference.v)).unwrap_or(f64::NAN);
+            let until_s = landed.first().copied().unwrap_or(f64::INFINITY);
+            let found = top(body, before, [t, until_s], (work, &mut difference.v));
+            last[1] = found.unwrap_or(f64::NAN);
         }
         self.found.extend(landed.drain(..).map(|at_s| [at_s, f64::NAN]));
         Some(())
     }
 }
 
-/// Returns the height of a flight near its top, where the body of the trajectory is at time `t` (s). `a` is room for an
-/// acceleration.
+/// Returns the height of a flight near its top, where the body of the trajectory is at time `t` (s); `None` if another
+/// wall ends the flight before. `a` is room for an acceleration.
 fn top<B: Body>(
     body: &B,
     trajectory: &mut Trajectory<B::Vector>,
-    mut t: f64,
+    [mut t, until_s]: [f64; 2],
     (work, a): (&mut Extrapolation<B::Vector>, &mut B::Vector),
 ) -> Option<f64> {
     let wall = still_wall(body)?;
@@ -170,6 +172,10 @@ fn top<B: Body>(
         let left = -wall.speed(v.components()) / push;
         if left.abs() < 1e-12 {
             break;
+        }
+        // Without a push the way up has no end.
+        if !left.is_finite() || t + left >= until_s {
+            return None;
         }
         trajectory.advance(body, t, left, work, MAX_EVALUATIONS).ok()?;
         t += left;

@@ -125,6 +125,68 @@ fn a_law_knows_its_true_bounces() {
 }
 
 #[test]
+fn the_truth_goes_on_where_an_impact_turns_a_drag_by_the_square_of_the_speed() {
+    let (g, k, e) = (9.81_f64, 0.05_f64, 0.8);
+    let fastest = (g / k).sqrt();
+    // Each flight by hand: the time up, the height, and the time and the speed of the fall.
+    let (mut at_s, mut height, mut wanted) = (0.0, 2.0_f64, Vec::new());
+    for _ in 0..5 {
+        at_s += fastest / g * (k * height).exp().acosh();
+        let up = e * fastest * (1.0 - (-2.0 * k * height).exp()).sqrt();
+        height = (up * up / (fastest * fastest)).ln_1p() / (2.0 * k);
+        wanted.push([at_s, height]);
+        at_s += fastest / g * (up / fastest).atan();
+    }
+    for drag in ["vy*abs(vy)", "vy*max(vy, -vy)", "sign(vy)*vy^2", "if(vy > 0, vy^2, -vy^2)"] {
+        let text = falling("start = 2.0", &format!("-g - {k}*{drag}"), e, "y");
+        for hz in [30, 240] {
+            let truth = after(&text, Solver::Truth, 4.0, hz);
+            assert!(truth.truth_error().unwrap()[0] < 1e-9, "{drag} at {hz} Hz");
+            for (n, [t, top]) in (1..).zip(&wanted) {
+                let [own_t, own_top] = truth.true_bounce(n).unwrap();
+                let off = (own_t - t).abs().max((own_top - top).abs());
+                assert!(off < 1e-10, "{drag}, impact {n}: {own_t} s, {own_top}, not {t} s, {top}");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_flight_that_a_second_wall_ends_has_no_height() {
+    let walls = |g: &str| {
+        format!(
+            "[[law]]\n[law.coordinates.y]\nstart = 0.7\nstart_velocity = -4.3\nacceleration = '{g}'\n\
+             [law.events.floor]\nwhen = 'y'\nthen = {{ vy = '-0.9*vy' }}\n[law.events.top]\nwhen = 'y - 2.5'\n\
+             falling = false\nthen = {{ vy = '-0.9*vy' }}\n"
+        )
+    };
+    let free = stepper(&body(&walls("0")), Solver::Truth);
+    let (mut at_s, mut speed) = (0.7 / 4.3, 4.3);
+    for n in 1..8 {
+        let [own_s, height] = free.true_bounce(n).unwrap();
+        assert!((own_s - at_s).abs() < 1e-12 && height.is_nan(), "{n}: {own_s} s, {height}");
+        speed *= 0.9;
+        at_s += 2.5 / speed;
+    }
+    // Up to 0.76 of the way at first, and none later.
+    let heavy = stepper(&body(&walls("-2")), Solver::Truth);
+    assert!(heavy.true_bounce(1).unwrap()[1].is_nan());
+    let last = (2..20).find_map(|n| heavy.true_bounce(n).filter(|[_, height]| height.is_finite()));
+    assert!(last.is_some_and(|[_, height]| (0.5..2.5).contains(&height)), "{last:?}");
+}
+
+#[test]
+fn a_law_that_starts_beyond_its_wall_is_refused() {
+    let floor = |start: &str| parse(&falling(&format!("start = {start}"), "-g", 0.8, "y - 2"));
+    let fault = floor("1.3").unwrap_err().to_string();
+    assert!(
+        fault.contains("starts beyond `floor`") && fault.contains("falling = false"),
+        "{fault}"
+    );
+    assert!(floor("2").is_ok());
+}
+
+#[test]
 fn the_bounces_on_a_paddle_end_where_the_truth_does_not_know_itself() {
     let text = "[[law]]\nconstants = { g = 9.81, e = 0.9, a = 0.01, w = 60 }\n[law.coordinates.y]\nstart = 0.3\n\
                 acceleration = '-g'\n[law.events.paddle]\nwhen = 'y - a*sin(w*t)'\n\
@@ -238,7 +300,7 @@ fn events_that_are_no_walls_are_refused_with_a_remedy() {
 
 #[test]
 fn a_scene_with_events_is_written_as_it_was_read() {
-    let text = falling("start = 1.0", "-g", 0.8, "y")
+    let text = falling("start = 3.0", "-g", 0.8, "y")
         .replace("then", "falling = false\nthen")
         .replace("when = 'y'", "when = '1 - y/2'");
     let scene = parse(&text).unwrap_or_else(|errors| panic!("{errors}"));

@@ -79,7 +79,7 @@ pub(super) fn check_start(law: &Law) -> Result<(), LawFault> {
     let mut a = v.clone();
     law.acceleration(0.0, &q, &v, &mut a);
     law.equations.not_finite(&law.registers.borrow()).map_or(Ok(()), Err)?;
-    law.equations.event_fault(&mut law.registers.borrow_mut()).map_or(Ok(()), Err)
+    law.equations.event_fault(&mut law.registers.borrow_mut(), &q).map_or(Ok(()), Err)
 }
 
 /// Returns the key to which a fault of the whole text points, which is the first parameter.
