@@ -110,7 +110,8 @@ pub(super) async fn follow_bounces(
     let lies = LIES * highest.max(1.0);
     let is_up = found.sinks_at_s.is_none() && highest_last > lies;
     found.never_rests = (rests && is_up).then_some(highest_last);
-    if found.sinks_at_s.is_none() && !is_up {
+    // On a wall that moves nothing is at rest.
+    if found.sinks_at_s.is_none() && !is_up && !truth.is_driven() {
         let body = &followed.body.stepper;
         let mut push = vec![0.0; body.q().len()];
         body.acceleration(seconds, body.q(), &push.clone(), &mut push);
@@ -159,7 +160,10 @@ impl BounceFinding {
         lies: f64,
         threshold: [f64; 2],
     ) {
-        // A height that is not known is that of a very short flight.
+        // Between two walls no flight has a height. Else a height that is not known is that of a very short flight.
+        if exact.true_bounce(0).is_none_or(|[_, apex]| apex.is_nan()) {
+            return;
+        }
         let falls_below = |height: f64| {
             let mut flights = (1..MAX_FLIGHTS).map_while(|impact| exact.true_bounce(impact));
             Some(flights.find(|[_, apex]| apex.is_nan() || *apex <= height)?[0])

@@ -108,9 +108,8 @@ impl<P: Clone, V: Vector> Bouncer<P, V> {
         // One copy of both would wait until both have been written.
         self.from.q.assign(&y.q);
         let is_within = matches!(self.rule, Rule::Within(_) | Rule::Swept);
-        let is_at_rest = |it: Contact| it.height(y) == 0.0 && it.speed(y) == 0.0;
         if is_within
-            && Contact::all(&body.system, t).any(is_at_rest)
+            && Contact::all(&body.system, t).any(|it| it.lies(t, y))
             && let Some(contact) = self.rest(body, t, y)
         {
             // Other coordinates go on.
@@ -120,6 +119,8 @@ impl<P: Clone, V: Vector> Bouncer<P, V> {
             let contact = contact.at(&body.system, t + h);
             contact.set_height(0.0, y);
             contact.set_speed(0.0, y);
+            // On a wall that swings it has no flights.
+            self.bounces.part();
             return Ok(());
         }
         self.from.v.assign(&y.v);
@@ -174,6 +175,7 @@ impl<P: Clone, V: Vector> Bouncer<P, V> {
             // A soft floor is entered at the end of the step.
             Rule::Penalty if contact.height(&self.from) >= 0.0 => {
                 self.bounces.land(t + h, [contact.speed(y), f64::NAN]);
+                self.bounces.beyond = -contact.height(y);
             }
             Rule::BeforeTick | Rule::Penalty => {}
             Rule::Engine | Rule::EngineP2 | Rule::OwnLines => {}
@@ -217,8 +219,7 @@ impl<P: Clone, V: Vector> Bouncer<P, V> {
         t: f64,
         y: &State<V>,
     ) -> Option<Contact> {
-        let is_at_rest = |it: &Contact| it.height(y) == 0.0 && it.speed(y) == 0.0;
-        let contact = Contact::all(&body.system, t).find(is_at_rest)?;
+        let contact = Contact::all(&body.system, t).find(|it| it.lies(t, y))?;
         (contact.push(body, t, y, &mut self.a) < 0.0).then_some(contact)
     }
 

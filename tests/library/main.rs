@@ -9,6 +9,7 @@ mod blocks;
 mod blow_up;
 mod bodies;
 mod bounce;
+mod bounce_verdicts;
 mod chapter;
 #[cfg(feature = "cli")]
 mod ci_recipe;

@@ -355,6 +355,20 @@ impl Ball {
         None
     }
 
+    /// Returns the time (s) of an impact after `from` between two walls, without forces. Each flight lasts 1/e of the
+    /// one before.
+    fn reflection_s(&self, [y, v]: [f64; 2], impact: u64) -> Option<f64> {
+        let (wide, e, speed) = (self.ceiling, self.restitution, v.abs());
+        let Some(later) = impact.checked_sub(1) else { return Some(0.0) };
+        let first_s = (if v > 0.0 { wide - y } else { y }) / speed;
+        let flights = match e {
+            _ if later == 0 => 0.0,
+            1.0 => later as f64,
+            _ => libm::expm1(-(later as f64) * libm::log(e)) / (1.0 - e),
+        };
+        Some(first_s + flights * (wide / speed)).filter(|at_s| at_s.is_finite())
+    }
+
     /// Returns the state `dt` (s) after `from`, unless too many flights lie between them.
     fn after(&self, from: &State<f64>, dt: f64) -> Option<[f64; 2]> {
         let highest = if self.ceiling > 0.0 { self.ceiling } else { f64::INFINITY };
@@ -440,9 +454,7 @@ impl Body for Ball {
         let (g, e) = (self.gravity, self.restitution);
         let at = [from.q.max(0.0), from.v];
         if self.ceiling > 0.0 {
-            let to_wall = if from.v > 0.0 { self.ceiling - at[0] } else { at[0] };
-            let way = to_wall + self.ceiling * impact.saturating_sub(1) as f64;
-            return (e == 1.0 && from.v != 0.0).then(|| [way / from.v.abs(), f64::NAN]);
+            return self.reflection_s(at, impact).map(|at_s| [at_s, f64::NAN]);
         }
         // The drag stops the way up where e^(c t) = 1 + c v/g.
         let up = |v: f64| match self.drag {
