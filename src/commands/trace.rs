@@ -88,8 +88,12 @@ pub(super) fn run(args: &TraceArgs) -> Result<(), Error> {
     print_accuracy(&experiment.scene.bodies, &at_start, &reached, truth);
     for (SceneBody { name, kind, .. }, truth) in experiment.scene.bodies.iter().zip(truth.bodies())
     {
-        let first = truth.stepper.true_bounce(1);
-        if kind.has_walls && first.is_none_or(|[at_s, _]| at_s > studio.race().t()) {
+        let [begun, first] = [0, 1].map(|impact| truth.stepper.true_bounce(impact));
+        // Of a body that was kicked, or whose truth has failed, the first impact is not known.
+        let is_known = begun.is_none_or(|[begun_s, _]| begun_s == 0.0)
+            && truth.stepper.truth_error().is_some_and(|error| error[0].is_finite());
+        let is_met = first.is_some_and(|[at_s, _]| at_s <= studio.race().t());
+        if kind.has_walls && is_known && !is_met {
             print_status(&format!("lane 0, {name}: it meets no wall in {seconds} s"));
         }
     }

@@ -19,8 +19,11 @@ pub(super) struct Impacts {
     rows: RowWriter<Output>,
     /// For each body of each lane, the record at the last tick, and whether its last impact is still to be written.
     seen: Vec<(Bounces, bool)>,
-    /// For each body, the number of true impacts written.
-    written: Vec<u64>,
+    /// For each body of each lane, the number of impacts before the last input, edit or placement, where counts begin.
+    earlier: Vec<u64>,
+    /// For each body, the time (s) at which the count of its true impacts began, and the numbers of impacts written
+    /// before and since.
+    written: Vec<(f64, [u64; 2])>,
 }
 
 impl Impacts {
@@ -28,20 +31,28 @@ impl Impacts {
         let rows = RowWriter::begin(Output::stdout(), format, COLUMNS)?;
         let bodies = studio.scene().bodies.len();
         let lanes = studio.race().entrants().len();
-        Ok(Self { rows, seen: vec![Default::default(); lanes * bodies], written: vec![0; bodies] })
+        let (seen, earlier) = (vec![Default::default(); lanes * bodies], vec![0; lanes * bodies]);
+        Ok(Self { rows, seen, earlier, written: vec![Default::default(); bodies] })
     }
 
     /// Writes the true impacts of the last tick, and those of lanes whose next impact has come, or all at the end.
     pub(super) fn tick(&mut self, studio: &Studio, is_end: bool) -> io::Result<()> {
         let (race, scene) = (studio.race(), studio.scene());
-        let Self { rows, seen, written } = self;
-        for (body, n) in written.iter_mut().enumerate() {
+        let Self { rows, seen, earlier, written } = self;
+        let mut has_changed = vec![false; scene.bodies.len()];
+        for (body, (since_s, [before, n])) in written.iter_mut().enumerate() {
+            let [begun_s, _] =
+                race.truth().bodies()[body].stepper.true_bounce(0).unwrap_or([*since_s; 2]);
+            if std::mem::replace(since_s, begun_s) != begun_s {
+                (*before, *n) = (*before + *n, 0);
+                has_changed[body] = true;
+            }
             while let Some([t, apex]) = true_impact(race, body, *n + 1) {
                 *n += 1;
                 let method = method_id(race.truth().solver(), &race.truth().bodies()[body]);
                 let name = &scene.bodies[body].name;
                 let apex = if apex.is_finite() { json!(apex) } else { Value::Null };
-                let start = [json!(*n), json!(0), json!(method), Value::Null, json!(t)];
+                let start = [json!(*before + *n), json!(0), json!(method), Value::Null, json!(t)];
                 let rest = [Value::Null, Value::Null, apex, json!(name)];
                 rows.row(&[&start[..], &rest].concat())?;
             }
@@ -50,14 +61,16 @@ impl Impacts {
         for (lane, entrant) in race.entrants().iter().enumerate() {
             for (body, of_body) in entrant.lane.bodies().iter().enumerate() {
                 let Some(&now) = of_body.stepper.bounces() else { continue };
-                let (before, is_open) = &mut seen[lane * bodies + body];
-                let is_next = now.impacts != before.impacts;
+                let cell = lane * bodies + body;
+                let (before, is_open) = &mut seen[cell];
+                let is_anew = has_changed[body] || now.impacts < before.impacts;
+                let is_next = is_anew || now.impacts != before.impacts;
                 if *is_open && (is_next || is_end) {
                     let last = if is_next { *before } else { now };
                     let apex = last.apex.filter(|_| last.apex_after == last.impacts);
                     let after = Some(last.speeds[1]).filter(|speed| speed.is_finite());
                     rows.row(&[
-                        json!(last.impacts),
+                        json!(earlier[cell] + last.impacts),
                         json!(lane + 1),
                         json!(method_id(entrant.lane.solver(), of_body)),
                         json!(entrant.spec.impact.id),
@@ -67,8 +80,12 @@ impl Impacts {
                         json!(apex),
                         json!(scene.bodies[body].name),
                     ])?;
+                    *is_open = false;
                 }
-                *is_open |= is_next;
+                if is_anew {
+                    earlier[cell] += before.impacts;
+                }
+                *is_open |= now.impacts > if is_anew { 0 } else { before.impacts };
                 *before = now;
             }
         }

@@ -106,6 +106,33 @@ fn a_law_with_a_solution_has_an_exact_truth_until_its_first_input() {
 }
 
 #[test]
+fn impacts_are_numbered_through_a_kick() {
+    let folder = tempfile::tempdir().unwrap();
+    let ball = "title = 'x'\ntick_hz = 60\nseconds = 3\n[[ball]]\nheight_m = 1\n[[command]]\nat_s = 1.0\nkick = 1\n";
+    fs::write(folder.path().join("ball.toml"), ball).unwrap();
+    let output = run_in(folder.path(), "trace --scene ball.toml --method rk4 --impacts");
+    let csv = String::from_utf8(output.stdout.clone()).unwrap();
+    let of = |lane: &str| -> Vec<(u64, f64)> {
+        let rows = rows(&csv).into_iter().filter(|row| row[1] == lane);
+        rows.map(|row| (row[0].parse().unwrap(), row[4].parse().unwrap())).collect()
+    };
+    let [truth, lane] = ["0", "1"].map(of);
+    // The kick, at 0.548 s of a flight, lifts the ball as by a second start.
+    let first_s = (2.0_f64 / 9.81).sqrt();
+    let up = 0.8 * 9.81 * first_s;
+    let flown_s = 1.0 - first_s;
+    let (y, v) = (up * flown_s - 9.81 / 2.0 * flown_s * flown_s, up - 9.81 * flown_s + 4.905);
+    let second_s = 1.0 + (v + (v * v + 2.0 * 9.81 * y).sqrt()) / 9.81;
+    assert_eq!(truth.len(), 3, "{csv}");
+    for (n, at_s) in [(0, first_s), (1, second_s)] {
+        assert_eq!((truth[n].0, lane[n].0), (n as u64 + 1, n as u64 + 1), "{csv}");
+        assert!((truth[n].1 - at_s).abs() < 1e-12, "{truth:?}, not {at_s} s");
+    }
+    assert!(truth.iter().zip(&lane).all(|(a, b)| a.0 == b.0 && (a.1 - b.1).abs() < 1e-12), "{csv}");
+    assert!(!stderr(&output).contains("meets no wall"));
+}
+
+#[test]
 fn a_chain_has_a_row_for_each_of_its_masses() {
     let csv = stdout_of("trace --scene chain --method rk4 --seconds 0");
     let names: Vec<_> = rows(&csv).iter().map(|row| row[5].to_owned()).collect();
