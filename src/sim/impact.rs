@@ -23,9 +23,9 @@ pub struct Wall {
     pub restitution: f64,
 }
 
-/// Frequency of a soft wall in hertz: k is 898 per second squared.
+/// Frequency of a soft wall in hertz, unless a ball has its own: k is 898 per second squared.
 #[cfg(feature = "lab")]
-const SOFT_HZ: f64 = 4.77;
+pub(super) const SOFT_HZ: f64 = 4.77;
 
 /// A flight shorter than this, in seconds, ends the bouncing: the error is below 1e-17 m.
 const SHORTEST_FLIGHT_S: f64 = 1e-9;
@@ -53,16 +53,16 @@ impl Wall {
         self.side * (v[self.coordinate] - self.velocity)
     }
 
-    /// Returns the acceleration by the wall under the rule `penalty`.
+    /// Returns the acceleration by the wall under the rule `penalty`, as a spring of this frequency in hertz.
     #[cfg(feature = "lab")]
-    pub(super) fn soft_push(&self, q: &[f64], v: &[f64]) -> f64 {
+    pub(super) fn soft_push(&self, hz: f64, q: &[f64], v: &[f64]) -> f64 {
         let (depth, speed) = (-self.height(q), self.speed(v));
         if depth <= 0.0 {
             return 0.0;
         }
         let log = libm::log(self.restitution.max(1e-300));
         let turn = std::f64::consts::PI;
-        let soft = 2.0 * turn * SOFT_HZ;
+        let soft = 2.0 * turn * hz;
         let damping = -2.0 * soft * log / (turn * turn + log * log).sqrt();
         self.side * (soft * soft * depth - damping * speed).max(0.0)
     }

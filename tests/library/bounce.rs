@@ -13,7 +13,7 @@ const G: f64 = 9.81;
 const H: f64 = 1.0 / 60.0;
 
 pub(crate) fn ball([height, speed]: [f64; 2], restitution: f64) -> Ball {
-    Ball { height, speed, restitution, gravity: G, ..Ball::default() }
+    Ball { height, speed, restitution, gravity: G, penalty_hz: 4.77, ..Ball::default() }
 }
 
 fn under(id: &str, rule: &str) -> Solver {
@@ -390,6 +390,27 @@ fn faults_of_a_ball_and_its_rules_are_told() {
     ] {
         let found = fault(lanes, ball);
         assert!(found.contains(wanted), "{wanted} in\n{found}");
+    }
+}
+
+#[test]
+fn a_soft_floor_is_as_deep_as_its_frequency_lets_it() {
+    for penalty_hz in [4.77, 10.0] {
+        let scene = format!(
+            "{}[[ball]]\nheight_m = 1\nrestitution = 1\npenalty_hz = {penalty_hz}\n",
+            head("")
+        );
+        let scene = Scene::parse("x.toml", &scene).unwrap();
+        let mut lane = Lane::new(&scene, under("rk4", "penalty"), 1);
+        let mut deepest = 0.0_f64;
+        for tick in 0..960 {
+            lane.tick(tick, tick as f64 / 960.0, 1.0 / 960.0);
+            deepest = deepest.min(lane.bodies()[0].stepper.q()[0]);
+        }
+        // All energy is in the spring there: ω² d²/2 = g (1 + d).
+        let stiff = (std::f64::consts::TAU * penalty_hz).powi(2);
+        let depth = (G + (G * G + 2.0 * stiff * G).sqrt()) / stiff;
+        near(-deepest, depth, 1e-3 * depth, "depth");
     }
 }
 

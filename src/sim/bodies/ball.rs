@@ -8,7 +8,7 @@ use std::cell::RefCell;
 use std::f64::consts::TAU;
 
 use super::prelude::*;
-use crate::impact::Wall;
+use crate::impact::{SOFT_HZ, Wall};
 
 pub(super) fn kind() -> Kind {
     Kind {
@@ -27,7 +27,7 @@ const CEILING: &str = "ceiling_m";
 /// The key of the amplitude of a floor that moves.
 pub(super) const FLOOR_AMPLITUDE: &str = "floor_amplitude_m";
 
-const PARAMETERS: [Of; 9] = [
+const PARAMETERS: [Of; 10] = [
     Of::number("height_m", Range::NON_NEGATIVE, |ball| &mut ball.height)
         .at_start()
         .named("height at start")
@@ -65,6 +65,10 @@ const PARAMETERS: [Of; 9] = [
         .or(4.905)
         .symbol("K")
         .about("the change of velocity by one kick"),
+    Of::number("penalty_hz", Range::POSITIVE, |ball| &mut ball.penalty_hz)
+        .or(SOFT_HZ)
+        .named("frequency of soft walls")
+        .about("the frequency of walls that are springs, as under the rule `penalty`"),
 ];
 
 /// The largest number of flights that a truth follows one by one. After more flights the state is not known: under drag
@@ -111,6 +115,8 @@ pub struct Ball {
     pub ceiling: f64,
     /// K, the change of velocity by one kick, in metres per second.
     pub kick: f64,
+    /// Frequency in hertz of walls that are springs.
+    pub penalty_hz: f64,
     /// Whether the walls are springs, as under the rule `penalty`.
     pub is_soft: bool,
     /// A memory that saves work and changes nothing.
@@ -284,7 +290,7 @@ impl Ball {
     #[cold]
     fn soft_push(&self, t: f64, y: f64, v: f64) -> f64 {
         let walls = (0..).map_while(|index| self.wall(index, t));
-        walls.map(|wall| wall.soft_push(from_ref(&y), from_ref(&v))).sum()
+        walls.map(|wall| wall.soft_push(self.penalty_hz, from_ref(&y), from_ref(&v))).sum()
     }
 
     /// Returns how long the flight from a state at or above the floor lasts, in seconds, and the speed at its end.

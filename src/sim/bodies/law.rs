@@ -6,7 +6,7 @@ use std::sync::Arc;
 use super::claims::{Checked, Claimant, FalseClaims};
 use super::prelude::*;
 use crate::body::{Distances, NO_BOUNDARIES, Piece};
-use crate::impact::Wall;
+use crate::impact::{SOFT_HZ, Wall};
 use crate::law::{At, Equations, Layout, Registers};
 
 mod claims;
@@ -103,7 +103,7 @@ impl Law {
     /// Adds the accelerations by soft walls.
     fn soft_pushes(&self, t: f64, [q, v]: [&[f64]; 2], a: &mut [f64]) {
         for wall in (0..).map_while(|index| self.wall(index, t)) {
-            a[wall.coordinate] += wall.soft_push(q, v);
+            a[wall.coordinate] += wall.soft_push(SOFT_HZ, q, v);
         }
     }
 
