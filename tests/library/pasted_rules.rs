@@ -178,6 +178,106 @@ fn a_driven_rule_has_its_top_speed_and_its_acceleration_at_every_rate() {
     assert_eq!((still.top_speed, still.accelerates), (None, None));
 }
 
+/// The condition of each piece, its acceleration and its top speed at 30, 60 and 240 Hz, and its course.
+type Driven = (&'static str, Option<f64>, Option<f64>, Option<Course>);
+
+#[test]
+fn each_piece_of_a_drive_has_its_own_acceleration_and_speed() {
+    const CASES: [(&str, [Driven; 2]); 7] = [
+        (
+            "if x > 0 { v -= 9*dt } else { v += 9*dt }; x += v*dt",
+            [("while x > 0", Some(-9.0), None, None), ("while x <= 0", Some(9.0), None, None)],
+        ),
+        (
+            "if x < 0 { v += 9*dt }; x += v*dt",
+            [("while x < 0", Some(9.0), None, None), ("while x >= 0", None, None, None)],
+        ),
+        (
+            "v -= sign(x)*9*dt; x += v*dt",
+            [
+                ("`sign(x)` of a number above 0", Some(-9.0), None, None),
+                ("`sign(x)` of a number below 0", Some(9.0), None, None),
+            ],
+        ),
+        (
+            "v += 900*dt; v = clamp(v, -200, 200); x += v*dt",
+            [
+                ("within the limits of `clamp(v, -200, 200)`", Some(900.0), None, None),
+                (
+                    "beyond the limits of `clamp(v, -200, 200)`",
+                    None,
+                    Some(200.0),
+                    Some(Course::Moves(200.0)),
+                ),
+            ],
+        ),
+        (
+            "v = move_toward(v, 300, 900*dt); x += v*dt",
+            [
+                ("beyond the limits of `move_toward(v, 300, 900*dt)`", Some(900.0), None, None),
+                (
+                    "within the limits of `move_toward(v, 300, 900*dt)`",
+                    None,
+                    Some(300.0),
+                    Some(Course::Moves(300.0)),
+                ),
+            ],
+        ),
+        (
+            "v = move_toward(v, 300, 900*dt)",
+            [
+                ("beyond the limits of `move_toward(v, 300, 900*dt)`", Some(900.0), None, None),
+                (
+                    "within the limits of `move_toward(v, 300, 900*dt)`",
+                    None,
+                    Some(300.0),
+                    Some(Course::Moves(300.0)),
+                ),
+            ],
+        ),
+        (
+            "v = move_toward(v, target, 900*dt); x += v*dt",
+            [
+                ("beyond the limits of `move_toward(v, target, 900*dt)`", Some(900.0), None, None),
+                (
+                    "within the limits of `move_toward(v, target, 900*dt)`",
+                    None,
+                    None,
+                    Some(Course::ByTarget),
+                ),
+            ],
+        ),
+    ];
+    for (text, wanted) in CASES {
+        let rule = Rule::read(text, FPS).unwrap();
+        let pieces = rule.pieces();
+        assert_eq!(pieces.len(), 2, "{text}");
+        for (condition, gain, top, course) in wanted {
+            let piece = pieces.iter().find(|piece| piece.condition == condition);
+            let piece = piece.unwrap_or_else(|| panic!("{condition}: {pieces:?}"));
+            let is = |found: Option<f64>, wanted: Option<f64>| match wanted {
+                Some(wanted) => is_near(found.map(f64::abs), wanted.abs()),
+                None => found.is_none(),
+            };
+            for seen in [30.0, 60.0, 240.0].map(|fps| piece.rule.motion_at(fps)) {
+                assert!(is(seen.accelerates, gain) && is(seen.top_speed, top), "{text}: {seen:?}");
+            }
+            match (piece.course(), course) {
+                (Some(Course::Moves(found)), Some(Course::Moves(speed))) => {
+                    assert!(is_near(Some(found), speed), "{text}: {found}");
+                }
+                (found, course) => assert_eq!(found, course, "{text}"),
+            }
+        }
+    }
+    for (text, top) in [(CASES[3].0, 200.0), (CASES[4].0, 300.0)] {
+        for seen in Rule::read(text, FPS).unwrap().motions() {
+            let Some(gain) = seen.accelerates else { panic!("{text}: {seen:?}") };
+            assert!(is_near(seen.top_speed, top) && is_near(Some(gain), 900.0), "{text}: {seen:?}");
+        }
+    }
+}
+
 #[test]
 fn a_frame_length_has_its_unit_and_a_rule_its_own_end() {
     let phaser = |text: &str| Rule::read(text, FPS).unwrap();
