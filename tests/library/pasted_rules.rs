@@ -279,6 +279,19 @@ fn each_piece_of_a_drive_has_its_own_acceleration_and_speed() {
 }
 
 #[test]
+fn a_jump_that_ends_on_a_frame_lasts_no_frame_longer() {
+    for (text, frames) in [
+        ("v -= 6; x += v * dt", [49.0, 49.0]),
+        ("x += v * dt - 4.905 * dt * dt; v -= 9.81 * dt", [25.0, 50.0]),
+    ] {
+        for (fps, frames) in [30.0, 60.0].into_iter().zip(frames) {
+            let seen = Rule::read(text, FPS).unwrap().motion_at(fps);
+            assert_eq!(seen.jump.map(|[_, seconds]| seconds), Some(frames / fps), "{text}: {fps}");
+        }
+    }
+}
+
+#[test]
 fn a_frame_length_has_its_unit_and_a_rule_its_own_end() {
     let phaser = |text: &str| Rule::read(text, FPS).unwrap();
     let slow = phaser("x += (target - x) * 0.006 * delta");

@@ -6,6 +6,8 @@ use super::{MAX_WATCHED, Rule};
 const FRAMES_UP: f64 = 25.0;
 /// A speed that changes by less than this fraction in a frame is the top speed.
 const STEADY: f64 = 1e-13;
+/// A height below this fraction of the top is 0 up to rounding.
+const LANDED: f64 = 1e-9;
 
 impl Rule {
     /// Returns the top speed and the acceleration from rest.
@@ -78,7 +80,7 @@ impl Rule {
         for frame in 1..MAX_WATCHED as u32 {
             self.text.step(&mut registers, self.step_length(fps), 0.0);
             let place = self.text.value(&registers, 0) * start.signum();
-            if place.is_nan() || place <= 0.0 {
+            if place.is_nan() || place <= LANDED * height {
                 return (height > 0.0).then_some([height, f64::from(frame) / fps]);
             }
             height = height.max(place);
