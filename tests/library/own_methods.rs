@@ -189,6 +189,24 @@ fn the_measured_card_of_own_lines_is_right() {
     }
 }
 
+#[test]
+fn the_measured_card_of_lines_for_one_coordinate_has_their_order() {
+    for (id, exact_if_linear) in [
+        ("gauss-legendre-4", false),
+        ("semi-implicit-euler-implicit-drag", false),
+        ("verlet-exact-drag", false),
+        ("linearly-implicit-euler", false),
+        ("dormand-prince-54", false),
+        ("exponential-rosenbrock-euler", true),
+    ] {
+        let method = METHODS.iter().find(|method| method.id == id).unwrap();
+        let own = own(method);
+        let orders = |card: &Method| [card.order, card.order_with_drag];
+        assert_eq!((orders(own), own.exact_if_linear), (orders(method), exact_if_linear), "{id}");
+        assert!(own.about.starts_with("order "), "{}", own.about);
+    }
+}
+
 /// Butcher's Runge-Kutta 5 in six stages.
 const BUTCHER_5: &str = "let a1 = a(x, v)
 let v2 = v + h / 4 * a1
