@@ -11,7 +11,7 @@ use regatta::sim::{
     OwnLines, Query, State, System, Vector, check_own_id, own_method, own_method_id,
 };
 
-use regatta::tools::source_code::step_lines;
+use regatta::tools::source_code::{Language, Precision, source_code, step_lines};
 
 use crate::source_code::known::{CASES, steps_as};
 
@@ -205,6 +205,25 @@ fn the_measured_card_of_lines_for_one_coordinate_has_their_order() {
         assert_eq!((orders(own), own.exact_if_linear), (orders(method), exact_if_linear), "{id}");
         assert!(own.about.starts_with("order "), "{}", own.about);
     }
+}
+
+#[test]
+fn the_printed_lines_of_an_engine_keep_its_usual_substeps() {
+    for method in METHODS.iter().filter(|method| method.code.contains("takes whole substeps")) {
+        let lines = step_lines(method).unwrap();
+        let own = own_method(&format!("engine-{}", method.id), &lines).unwrap();
+        assert_eq!(own.default_substeps, method.default_substeps, "{}", method.id);
+        let shown = source_code(own, Language::Rust, Precision::Double).unwrap();
+        assert!(shown.contains("Not measured: its lines take") && !shown.contains("Order: 0"));
+    }
+    for number in ["0", "1001", "many", "2.5", ""] {
+        let text =
+            format!("takes force\ntakes whole substeps = {number}: how many\nv += h * force");
+        let fault = own_method("bad", &text).unwrap_err();
+        assert_eq!(fault.what, format!("`{number}` is no number of substeps"));
+        assert!(text[fault.span].starts_with("substeps ="));
+    }
+    assert!(own_method("bad", "takes force = 4\nv += h * force").is_err());
 }
 
 /// Butcher's Runge-Kutta 5 in six stages.
