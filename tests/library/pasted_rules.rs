@@ -3,6 +3,7 @@
 use std::env;
 
 use regatta::scene::SceneErrors;
+use regatta::sim::law::Remedy;
 use regatta::tools::Rule;
 use regatta::tools::rule::Course;
 use regatta::tools::source_code::Language;
@@ -10,7 +11,7 @@ use regatta::tools::source_code::Language;
 use crate::rules::{FPS, START, TARGET, code, frames, is_near};
 
 /// Lines as they are pasted, each with the plain lines that it means.
-const PASTED: [(&str, &str); 26] = [
+const PASTED: [(&str, &str); 31] = [
     (
         "position = position.lerp(target, 1 - exp(-8 * delta))",
         "x = lerp(x, target, 1 - exp(-8 * dt))",
@@ -75,6 +76,20 @@ const PASTED: [(&str, &str); 26] = [
     ),
     ("x = ceil(v) + trunc(-1.5) + step(1, 2)", "x = -floor(-v) + -1 + 1"),
     ("x += min(v, 1, 9)", "x += min(min(v, 1), 9)"),
+    (
+        "x = Mathf.SmoothDamp(x, target, ref v, 0.3f, Mathf.Infinity, Time.deltaTime);",
+        "x = smoothDamp(x, target, v, 0.3)",
+    ),
+    (
+        "x = Mathf.SmoothDamp(x, target, ref v, 0.3f, 2f, Time.deltaTime);",
+        "let near = x - clamp(x - target, -0.6, 0.6); x = smoothDamp(x, near, v, 0.3)",
+    ),
+    (
+        "velocity = velocity.move_toward(Vector2.ZERO, 12 * delta); x += velocity * delta",
+        "v = clamp(0, v - 12 * dt, v + 12 * dt); x += v * dt",
+    ),
+    ("v = min(v + 10 * dt, math.huge); x += v * dt", "v += 10 * dt; x += v * dt"),
+    ("v = v.clamp(-f32::INFINITY, float.PositiveInfinity) + Vector3.zero; x += v", "x += v"),
     ("let power = 0.5; x += (target - x) * power", "x += (target - x) * 0.5"),
 ];
 
@@ -89,6 +104,10 @@ fn pasted_lines_move_as_the_plain_lines_that_they_mean() {
     }
     let two = Rule::read(PASTED[11].0, FPS).unwrap();
     assert_eq!((two.left_out(), two.is_linear()), (Some(['x', 'y']), true));
+    // A limit at infinity is none.
+    for free in [PASTED[25].0, PASTED[28].0, PASTED[29].0] {
+        assert!(Rule::read(free, FPS).unwrap().is_linear(), "{free}");
+    }
     // Unity's spring, by its own lines.
     let [mut x, mut v] = START;
     let h = 1.0 / FPS;
@@ -111,10 +130,19 @@ fn a_refusal_points_at_the_part_that_is_meant() {
         ("x = (x + v).norm", 12..16, "`norm` is one part of a value"),
         ("pos.x += vel.y", 9..10, "a line mixes the components x and y of vectors"),
         ("if x > 1 then x = 1", 18..19, "a block is not closed"),
+        ("x = Infinity", 4..12, "`Infinity` is no limit here"),
+        ("x = move_toward(x, target, INF)", 27..30, "`INF` is no limit here"),
     ] {
         let fault = Rule::read(text, FPS).unwrap_err();
         assert_eq!((fault.span, &*fault.what), (at, what), "{text}");
     }
+    let Remedy::Name { mut known, .. } = Rule::read("x = sm(x)", FPS).unwrap_err().remedy else {
+        panic!("names")
+    };
+    let all = known.len();
+    known.sort();
+    known.dedup();
+    assert_eq!(known.len(), all, "each function once");
 }
 
 #[test]
