@@ -253,19 +253,38 @@ fn uneven_drive(motions: &[VisibleMotion]) -> Option<String> {
     })
 }
 
-/// Returns the tables of a rule.
+/// Whether the motion by itself, or the drive, has a number to show.
+fn is_visible(seen: &VisibleMotion) -> bool {
+    seen.grows
+        || [seen.hz, seen.overshoot, seen.halves_s, seen.settles_s].iter().any(Option::is_some)
+}
+
+fn is_driven(seen: &VisibleMotion) -> bool {
+    seen.top_speed.or(seen.accelerates).is_some()
+}
+
+/// Returns the tables of a rule. That of a motion without numbers is left out beside a drive.
 fn tables(rule: &Rule) -> String {
     let motions = rule.motions();
-    let is_driven = |seen: &VisibleMotion| seen.top_speed.or(seen.accelerates).is_some();
-    let mut said = text(COLUMNS, &motions, "  ");
+    let mut said = match motions.iter().any(is_visible) || !motions.iter().any(is_driven) {
+        true => text(COLUMNS, &motions, "  "),
+        false => String::new(),
+    };
     if rule.settles_within() != 0.01 {
         let percent = (1e8 * rule.settles_within()).round() / 1e6;
         said = said.replacen("1 % AFTER s", &format!("{percent} % AFTER s"), 1);
     }
+    let drive = drive(rule, &motions);
+    let space = if said.is_empty() || drive.is_empty() { "" } else { "\n" };
+    said + space + &drive
+}
+
+/// Returns the table of a driven rule; empty for another.
+fn drive(rule: &Rule, motions: &[VisibleMotion]) -> String {
+    let mut said = String::new();
     if motions.iter().any(is_driven) {
-        said += "\n";
-        said += &text(DRIVEN, &motions, "  ");
-        said += &uneven_drive(&motions).unwrap_or_default();
+        said += &text(DRIVEN, motions, "  ");
+        said += &uneven_drive(motions).unwrap_or_default();
     }
     if let Some(speed) = rule.jump_speed() {
         said += &format!("a jump starts with v = {}\n", significant(speed, 4));
@@ -318,6 +337,7 @@ fn outcome(piece: &Piece, whole: &Rule) -> String {
             format!("it stops at once{}", reached.unwrap_or_default())
         }
         (Some(Course::Stays), _) => "it stays where it is".into(),
+        (Some(Course::ByTarget), _) => "it moves at a speed that the target decides".into(),
         (Some(Course::Moves(speed)), _) => {
             let other = piece.rule.motion_at(2.0 * piece.rule.fps());
             let is_alike =
@@ -367,10 +387,20 @@ fn report_text(rule: &Rule, written: &str, language: Language) -> String {
     } else {
         let state = rule.state().collect::<Vec<_>>().join(" and ");
         said = format!("not linear, but in pieces; of {state}\n");
+        let driven = drive(rule, &rule.motions());
+        if !driven.is_empty() {
+            said += &format!("\nfrom rest, through all pieces:\n{driven}");
+        }
         for piece in &pieces {
             said += &format!("\n{}: {}\n", piece.condition, outcome(piece, rule));
-            if !matches!(piece.course(), Some(Course::Stops | Course::Stays)) {
-                said += &tables(&piece.rule);
+            let motions = piece.rule.motions();
+            match piece.course() {
+                Some(Course::Stops | Course::Stays) => {}
+                Some(Course::Moves(_) | Course::ByTarget) => said += &drive(&piece.rule, &motions),
+                None if motions.iter().any(|seen| is_visible(seen) || is_driven(seen)) => {
+                    said += &tables(&piece.rule);
+                }
+                None => {}
             }
         }
     }
@@ -390,7 +420,7 @@ fn report_text(rule: &Rule, written: &str, language: Language) -> String {
     }
     let grows = rule.takes_step() && explodes_below.is_none() && rule.grows();
     said += if grows { "grows at every frame rate\n" } else { "" };
-    if let Some(coasts) = rule.coasts_s() {
+    if let Some(coasts) = rule.coasts_s().filter(|_| pieces.is_empty()) {
         let seconds: Vec<String> = coasts.iter().map(|seconds| significant(*seconds, 4)).collect();
         said += &match &seconds[..] {
             [after, before] => format!(

@@ -1,11 +1,13 @@
 //! An expression, read from text in one pass. The parser looks up names and checks types as it goes.
 
+use std::collections::HashSet;
 use std::f64::consts::PI;
 use std::ops::Range;
 
 use super::fault::{ExpressionFault, Parsed, Remedy, fault, quoted};
 use super::function::{FUNCTIONS, Function, STEP_FUNCTIONS};
 use super::op::{INFIXES, Infix, Level, Op, REMAINDER, is_word};
+use super::switch::{ModeRule, Switch};
 use super::token::{Token, tokens};
 use crate::curve::Curve;
 
@@ -155,6 +157,7 @@ fn parse_as(
         _ => return Err(parser.juxtaposed()),
     }
     want(&parser, value)?;
+    parser.want_finite(value)?;
     let mut expression = parser.expression;
     // If the value is a single name or a repeated part, it need not be the last node.
     if value + 1 != expression.nodes.len() {
@@ -452,11 +455,14 @@ impl Parser<'_> {
     fn unknown(&self, span: Range<usize>, name: String, noun: &str) -> ExpressionFault {
         let functions = FUNCTIONS.iter().chain(&STEP_FUNCTIONS).map(|function| function.name);
         let functions = functions.filter(|name| self.scope.function(name).is_some());
-        let known: Vec<String> = if noun == "function" {
+        let mut known: Vec<String> = if noun == "function" {
             functions.map(str::to_owned).collect()
         } else {
             self.scope.names().into_iter().chain(["pi".to_owned()]).collect()
         };
+        // A function has a row for each number of its arguments.
+        let mut all = HashSet::new();
+        known.retain(|name| all.insert(name.clone()));
         let what = format!("unknown {noun} `{}`", quoted(&name));
         ExpressionFault { span, what, remedy: Remedy::Name { written: name, known } }
     }
@@ -471,6 +477,46 @@ impl Parser<'_> {
         self.expression.nodes.push(node);
         self.expression.spans.push(span);
         self.expression.nodes.len() - 1
+    }
+
+    /// Adds an operation, unless it is a limit at infinity. Such a limit leaves its operand unchanged.
+    fn limit(&mut self, node: Node, span: Range<usize>) -> usize {
+        let nodes = &self.expression.nodes;
+        let number = |index: usize| match (nodes[index].op, nodes[index].arguments()) {
+            (Op::Number, _) => nodes[index].number,
+            (Op::Negate, [inner]) if nodes[*inner].op == Op::Number => -nodes[*inner].number,
+            _ => 0.0,
+        };
+        let far = match node.op {
+            Op::Switch(Switch { pieces: ModeRule::Less, .. }) => f64::INFINITY,
+            Op::Switch(Switch { pieces: ModeRule::Greater, .. }) => f64::NEG_INFINITY,
+            _ => return self.node(node, span),
+        };
+        match *node.arguments() {
+            [a, b] if number(b) == far => a,
+            [a, b] if number(a) == far => b,
+            _ => self.node(node, span),
+        }
+    }
+
+    /// Refuses a value that depends on an infinite number.
+    fn want_finite(&self, value: usize) -> Parsed<()> {
+        let nodes = &self.expression.nodes;
+        let mut is_read = vec![false; value + 1];
+        is_read[value] = true;
+        for index in (0..=value).rev() {
+            if is_read[index] && nodes[index].number.is_infinite() {
+                let span = self.span_of(index);
+                let what = format!("`{}` is no limit here", quoted(&self.text[span.clone()]));
+                return fault(span, what, "leave it out, or write a large number: `1e9`");
+            }
+            if is_read[index] {
+                for operand in nodes[index].arguments() {
+                    is_read[*operand] = true;
+                }
+            }
+        }
+        Ok(())
     }
 
     fn number(&mut self, number: f64, span: Range<usize>) -> usize {

@@ -125,7 +125,7 @@ pub(super) static FUNCTIONS: [Function; 21] = [
 ];
 
 /// The functions of step lines that laws do not have.
-pub(super) static STEP_FUNCTIONS: [Function; 34] = [
+pub(super) static STEP_FUNCTIONS: [Function; 36] = [
     written("lerp", &["a", "b", "part"], "a + (b - a) * part"),
     function("pow", &["base", "exponent"], Meaning::Power),
     // Halves go away from 0.
@@ -157,31 +157,37 @@ pub(super) static STEP_FUNCTIONS: [Function; 34] = [
     written("fInterpTo", &["x", "to", "dt", "speed"], "x + (to - x) * clamp(dt * speed, 0, 1)"),
     written("fInterpConstantTo", &["x", "to", "dt", "speed"], "move_toward(x, to, dt * speed)"),
     // Unity's critically damped spring, without the stop at the target, and the velocity that it leaves.
-    written("smoothDamp", &["x", "to", "v", "time"], "smoothDamp(x, to, v, time, 0, dt)"),
+    written("smoothDamp", &["x", "to", "v", "time"], "dampedTo(x, to, v, time, dt)"),
     written(
         "smoothDamp",
         &["x", "to", "v", "time", "most"],
-        "smoothDamp(x, x - clamp(x - to, -most * time, most * time), v, time)",
+        "smoothDamp(x, to, v, time, most, dt)",
     ),
     written(
         "smoothDamp",
         &["x", "to", "v", "time", "most", "dt"],
+        "dampedTo(x, x - clamp((x - to) / time, -most, most) * time, v, time, dt)",
+    ),
+    written(
+        "dampedTo",
+        &["x", "to", "v", "time", "dt"],
         "to + (x - to + (v + 2 / time * (x - to)) * dt) * damped(2 / time * dt)",
     ),
     written("damped", &["k"], "1 / (1 + k + 0.48 * k * k + 0.235 * k * k * k)"),
-    written(
-        "smoothDampVelocity",
-        &["x", "to", "v", "time"],
-        "smoothDampVelocity(x, to, v, time, 0, dt)",
-    ),
+    written("smoothDampVelocity", &["x", "to", "v", "time"], "dampedVelocity(x, to, v, time, dt)"),
     written(
         "smoothDampVelocity",
         &["x", "to", "v", "time", "most"],
-        "smoothDampVelocity(x, x - clamp(x - to, -most * time, most * time), v, time)",
+        "smoothDampVelocity(x, to, v, time, most, dt)",
     ),
     written(
         "smoothDampVelocity",
         &["x", "to", "v", "time", "most", "dt"],
+        "dampedVelocity(x, x - clamp((x - to) / time, -most, most) * time, v, time, dt)",
+    ),
+    written(
+        "dampedVelocity",
+        &["x", "to", "v", "time", "dt"],
         "(v - 2 / time * (v + 2 / time * (x - to)) * dt) * damped(2 / time * dt)",
     ),
     function("is_nan", &["x"], Meaning::IsNan),

@@ -37,8 +37,8 @@ pub use jet::Jet;
 pub use op::Level;
 pub use step_text::{
     Carried, Declares, FrameInput, FrameOutput, General, Input, Line, LoopName, LoopText,
-    MAX_STEP_BYTES, MethodInput, Operation, Request, StepBody, StepCall, StepMap, StepRegisters,
-    StepText, bracketed,
+    MAX_STEP_BYTES, MAX_SUBSTEPS, MethodInput, Operation, Request, StepBody, StepCall, StepMap,
+    StepRegisters, StepText, bracketed,
 };
 pub use tape::{MAX_OPERATIONS, MAX_SWITCHES, Origin, SwitchKind, Tape, TooLong};
 

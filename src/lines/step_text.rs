@@ -39,6 +39,9 @@ mod tree;
 /// The maximum number of bytes of a text, which is a few screens of lines.
 pub const MAX_STEP_BYTES: usize = 1 << 14;
 
+/// The maximum number of substeps in a tick of a lane.
+pub const MAX_SUBSTEPS: u32 = 1_000;
+
 /// Indices of the inputs of the tape; the names that the lines assign follow.
 const X: usize = 0;
 const V: usize = 1;

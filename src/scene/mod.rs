@@ -100,8 +100,7 @@ pub const MAX_BODIES: usize = 64;
 /// Maximum number of lanes in a scene, which is twice the number of distinguishable colours.
 pub const MAX_LANES: usize = 32;
 
-/// Maximum number of substeps in a tick of a lane.
-pub const MAX_SUBSTEPS: u32 = 1_000;
+pub use crate::sim::law::MAX_SUBSTEPS;
 
 /// Range of a lane's tolerance. Below this range, round-off alone is larger; at its upper end, an error may be as large
 /// as the value.

@@ -115,12 +115,13 @@ pub fn check(method: &Method) -> Conformance {
 }
 
 /// Returns the card of a method with measured values in place of its claims, which are the orders, evaluations,
-/// stability limits, symplectic, reversible and memory. Returns beside it the text of [`Method::about`], which states
-/// the orders, how the energy of a spring changes, and the nearest built-in method. A claim that cannot be measured is
-/// left out, and an order that cannot be measured is 0.
+/// stability limits, exactness on linear systems, symplectic, reversible and memory. Returns beside it the text of
+/// [`Method::about`], which states the orders, how the energy of a spring changes, and the nearest built-in method. A
+/// claim that cannot be measured is left out, and an order that cannot be measured is 0.
 pub fn measured(card: &'static Method) -> (Method, String) {
     let is_so = |found: Measured| found.is_ok_and(|(is_so, _)| is_so);
-    let orders = orders_of(card);
+    let exact_if_linear = is_so(linear::is_exact(card));
+    let orders = orders_of(&Method { exact_if_linear, ..*card });
     let [order, order_with_drag] =
         orders.each_ref().map(|found| found.as_ref().map_or(0, |it| order::whole(*it)));
     let counts = cost::counts(card).map(|(_, counts)| counts).unwrap_or_default();
@@ -142,6 +143,7 @@ pub fn measured(card: &'static Method) -> (Method, String) {
         order,
         order_with_drag,
         evaluations,
+        exact_if_linear,
         symplectic,
         reversible: is_so(geometry::is_reversible(card)),
         stability_limit: undamped,

@@ -24,9 +24,9 @@ pub use powers::Powers;
 pub use rate::{SecondOrder, second_order};
 pub use regatta_lines::{
     Carried, Declares, Expression, ExpressionFault, FrameInput, FrameOutput, General, Input, Level,
-    Line, LoopName, LoopText, MAX_BYTES, MAX_DEPTH, MAX_OPERATIONS, MAX_STEP_BYTES, MethodInput,
-    Operation, Remedy, Request, StepBody, StepCall, StepMap, StepRegisters, StepText, SwitchKind,
-    bracketed, functions, operators, values,
+    Line, LoopName, LoopText, MAX_BYTES, MAX_DEPTH, MAX_OPERATIONS, MAX_STEP_BYTES, MAX_SUBSTEPS,
+    MethodInput, Operation, Remedy, Request, StepBody, StepCall, StepMap, StepRegisters, StepText,
+    SwitchKind, bracketed, functions, operators, values,
 };
 pub(crate) use registers::LawLanes;
 pub use registers::Registers;

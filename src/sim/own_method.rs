@@ -145,14 +145,16 @@ pub fn own_method(id: &str, text: &str) -> Result<&'static Method, ExpressionFau
             "give its `fps` in a scene, or its file in the place of one; or call the acceleration: `v += h * a(x, v)`",
         ));
     }
-    let only = only(&read);
+    let (only, default_substeps) = (only(&read), read.default_substeps());
     let entry = Entry::of(id, &OwnLines::Method(Arc::new(read)));
     Ok(entry.method(|card| {
         let about = "a method by lines of one's own";
-        let source = "lines of one's own; this card is measured";
-        let card = Method { only, about, source, ..card };
+        let card = Method { only, about, default_substeps, ..card };
         // The problems of the measurements have no target and no joint.
-        if only.is_some() { card } else { entry.measured(card) }
+        if only.is_some() {
+            return card;
+        }
+        entry.measured(Method { source: "lines of one's own; this card is measured", ..card })
     }))
 }
 

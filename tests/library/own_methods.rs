@@ -11,7 +11,7 @@ use regatta::sim::{
     OwnLines, Query, State, System, Vector, check_own_id, own_method, own_method_id,
 };
 
-use regatta::tools::source_code::step_lines;
+use regatta::tools::source_code::{Language, Precision, source_code, step_lines};
 
 use crate::source_code::known::{CASES, steps_as};
 
@@ -51,10 +51,9 @@ fn run<V: Vector>(method: &Method, system: &Problem<V>, start: &State<V>) -> Vec
     (0..100).map(step).collect()
 }
 
-/// The methods whose sources have other operations. They write `1 - exp(-k h)` without `expm1`, begin with a stage
-/// in another order, solve two stages of one coordinate, or sum another series.
-const OTHER_OPERATIONS: [&str; 4] =
-    ["exponential-decay", "bdf2", "gauss-legendre-4", "exponential-rosenbrock-euler"];
+/// The methods whose sources have other operations. They write `1 - exp(-k h)` without `expm1`, or solve two stages of
+/// one coordinate.
+const OTHER_OPERATIONS: [&str; 2] = ["exponential-decay", "gauss-legendre-4"];
 
 /// The largest difference of those, relative to the largest coordinate or velocity of the run.
 const ROUNDING: f64 = 1e-14;
@@ -187,6 +186,43 @@ fn the_measured_card_of_own_lines_is_right() {
         let found = check(own);
         assert!(found.holds() || method.is_as_printed(), "{found}");
     }
+}
+
+#[test]
+fn the_measured_card_of_lines_for_one_coordinate_has_their_order() {
+    for (id, exact_if_linear) in [
+        ("gauss-legendre-4", false),
+        ("semi-implicit-euler-implicit-drag", false),
+        ("verlet-exact-drag", false),
+        ("linearly-implicit-euler", false),
+        ("dormand-prince-54", false),
+        ("exponential-rosenbrock-euler", true),
+    ] {
+        let method = METHODS.iter().find(|method| method.id == id).unwrap();
+        let own = own(method);
+        let orders = |card: &Method| [card.order, card.order_with_drag];
+        assert_eq!((orders(own), own.exact_if_linear), (orders(method), exact_if_linear), "{id}");
+        assert!(own.about.starts_with("order "), "{}", own.about);
+    }
+}
+
+#[test]
+fn the_printed_lines_of_an_engine_keep_its_usual_substeps() {
+    for method in METHODS.iter().filter(|method| method.code.contains("takes whole substeps")) {
+        let lines = step_lines(method).unwrap();
+        let own = own_method(&format!("engine-{}", method.id), &lines).unwrap();
+        assert_eq!(own.default_substeps, method.default_substeps, "{}", method.id);
+        let shown = source_code(own, Language::Rust, Precision::Double).unwrap();
+        assert!(shown.contains("Not measured: its lines take") && !shown.contains("Order: 0"));
+    }
+    for number in ["0", "1001", "many", "2.5", ""] {
+        let text =
+            format!("takes force\ntakes whole substeps = {number}: how many\nv += h * force");
+        let fault = own_method("bad", &text).unwrap_err();
+        assert_eq!(fault.what, format!("`{number}` is no number of substeps"));
+        assert!(text[fault.span].starts_with("substeps ="));
+    }
+    assert!(own_method("bad", "takes force = 4\nv += h * force").is_err());
 }
 
 /// Butcher's Runge-Kutta 5 in six stages.

@@ -3,6 +3,7 @@
 use std::env;
 
 use regatta::scene::SceneErrors;
+use regatta::sim::law::Remedy;
 use regatta::tools::Rule;
 use regatta::tools::rule::Course;
 use regatta::tools::source_code::Language;
@@ -10,7 +11,7 @@ use regatta::tools::source_code::Language;
 use crate::rules::{FPS, START, TARGET, code, frames, is_near};
 
 /// Lines as they are pasted, each with the plain lines that it means.
-const PASTED: [(&str, &str); 26] = [
+const PASTED: [(&str, &str); 31] = [
     (
         "position = position.lerp(target, 1 - exp(-8 * delta))",
         "x = lerp(x, target, 1 - exp(-8 * dt))",
@@ -75,6 +76,20 @@ const PASTED: [(&str, &str); 26] = [
     ),
     ("x = ceil(v) + trunc(-1.5) + step(1, 2)", "x = -floor(-v) + -1 + 1"),
     ("x += min(v, 1, 9)", "x += min(min(v, 1), 9)"),
+    (
+        "x = Mathf.SmoothDamp(x, target, ref v, 0.3f, Mathf.Infinity, Time.deltaTime);",
+        "x = smoothDamp(x, target, v, 0.3)",
+    ),
+    (
+        "x = Mathf.SmoothDamp(x, target, ref v, 0.3f, 2f, Time.deltaTime);",
+        "let near = x - clamp(x - target, -0.6, 0.6); x = smoothDamp(x, near, v, 0.3)",
+    ),
+    (
+        "velocity = velocity.move_toward(Vector2.ZERO, 12 * delta); x += velocity * delta",
+        "v = clamp(0, v - 12 * dt, v + 12 * dt); x += v * dt",
+    ),
+    ("v = min(v + 10 * dt, math.huge); x += v * dt", "v += 10 * dt; x += v * dt"),
+    ("v = v.clamp(-f32::INFINITY, float.PositiveInfinity) + Vector3.zero; x += v", "x += v"),
     ("let power = 0.5; x += (target - x) * power", "x += (target - x) * 0.5"),
 ];
 
@@ -89,6 +104,10 @@ fn pasted_lines_move_as_the_plain_lines_that_they_mean() {
     }
     let two = Rule::read(PASTED[11].0, FPS).unwrap();
     assert_eq!((two.left_out(), two.is_linear()), (Some(['x', 'y']), true));
+    // A limit at infinity is none.
+    for free in [PASTED[25].0, PASTED[28].0, PASTED[29].0] {
+        assert!(Rule::read(free, FPS).unwrap().is_linear(), "{free}");
+    }
     // Unity's spring, by its own lines.
     let [mut x, mut v] = START;
     let h = 1.0 / FPS;
@@ -111,10 +130,19 @@ fn a_refusal_points_at_the_part_that_is_meant() {
         ("x = (x + v).norm", 12..16, "`norm` is one part of a value"),
         ("pos.x += vel.y", 9..10, "a line mixes the components x and y of vectors"),
         ("if x > 1 then x = 1", 18..19, "a block is not closed"),
+        ("x = Infinity", 4..12, "`Infinity` is no limit here"),
+        ("x = move_toward(x, target, INF)", 27..30, "`INF` is no limit here"),
     ] {
         let fault = Rule::read(text, FPS).unwrap_err();
         assert_eq!((fault.span, &*fault.what), (at, what), "{text}");
     }
+    let Remedy::Name { mut known, .. } = Rule::read("x = sm(x)", FPS).unwrap_err().remedy else {
+        panic!("names")
+    };
+    let all = known.len();
+    known.sort();
+    known.dedup();
+    assert_eq!(known.len(), all, "each function once");
 }
 
 #[test]
@@ -176,6 +204,119 @@ fn a_driven_rule_has_its_top_speed_and_its_acceleration_at_every_rate() {
     assert!(is_near(limited.top_speed, 5.0), "{limited:?}");
     let still = rule("v = (v + (target - x) * 0.2) * 0.85; x += v").motion_at(60.0);
     assert_eq!((still.top_speed, still.accelerates), (None, None));
+}
+
+/// The condition of each piece, its acceleration and its top speed at 30, 60 and 240 Hz, and its course.
+type Driven = (&'static str, Option<f64>, Option<f64>, Option<Course>);
+
+#[test]
+fn each_piece_of_a_drive_has_its_own_acceleration_and_speed() {
+    const CASES: [(&str, [Driven; 2]); 7] = [
+        (
+            "if x > 0 { v -= 9*dt } else { v += 9*dt }; x += v*dt",
+            [("while x > 0", Some(-9.0), None, None), ("while x <= 0", Some(9.0), None, None)],
+        ),
+        (
+            "if x < 0 { v += 9*dt }; x += v*dt",
+            [("while x < 0", Some(9.0), None, None), ("while x >= 0", None, None, None)],
+        ),
+        (
+            "v -= sign(x)*9*dt; x += v*dt",
+            [
+                ("`sign(x)` of a number above 0", Some(-9.0), None, None),
+                ("`sign(x)` of a number below 0", Some(9.0), None, None),
+            ],
+        ),
+        (
+            "v += 900*dt; v = clamp(v, -200, 200); x += v*dt",
+            [
+                ("within the limits of `clamp(v, -200, 200)`", Some(900.0), None, None),
+                (
+                    "beyond the limits of `clamp(v, -200, 200)`",
+                    None,
+                    Some(200.0),
+                    Some(Course::Moves(200.0)),
+                ),
+            ],
+        ),
+        (
+            "v = move_toward(v, 300, 900*dt); x += v*dt",
+            [
+                ("beyond the limits of `move_toward(v, 300, 900*dt)`", Some(900.0), None, None),
+                (
+                    "within the limits of `move_toward(v, 300, 900*dt)`",
+                    None,
+                    Some(300.0),
+                    Some(Course::Moves(300.0)),
+                ),
+            ],
+        ),
+        (
+            "v = move_toward(v, 300, 900*dt)",
+            [
+                ("beyond the limits of `move_toward(v, 300, 900*dt)`", Some(900.0), None, None),
+                (
+                    "within the limits of `move_toward(v, 300, 900*dt)`",
+                    None,
+                    Some(300.0),
+                    Some(Course::Moves(300.0)),
+                ),
+            ],
+        ),
+        (
+            "v = move_toward(v, target, 900*dt); x += v*dt",
+            [
+                ("beyond the limits of `move_toward(v, target, 900*dt)`", Some(900.0), None, None),
+                (
+                    "within the limits of `move_toward(v, target, 900*dt)`",
+                    None,
+                    None,
+                    Some(Course::ByTarget),
+                ),
+            ],
+        ),
+    ];
+    for (text, wanted) in CASES {
+        let rule = Rule::read(text, FPS).unwrap();
+        let pieces = rule.pieces();
+        assert_eq!(pieces.len(), 2, "{text}");
+        for (condition, gain, top, course) in wanted {
+            let piece = pieces.iter().find(|piece| piece.condition == condition);
+            let piece = piece.unwrap_or_else(|| panic!("{condition}: {pieces:?}"));
+            let is = |found: Option<f64>, wanted: Option<f64>| match wanted {
+                Some(wanted) => is_near(found.map(f64::abs), wanted.abs()),
+                None => found.is_none(),
+            };
+            for seen in [30.0, 60.0, 240.0].map(|fps| piece.rule.motion_at(fps)) {
+                assert!(is(seen.accelerates, gain) && is(seen.top_speed, top), "{text}: {seen:?}");
+            }
+            match (piece.course(), course) {
+                (Some(Course::Moves(found)), Some(Course::Moves(speed))) => {
+                    assert!(is_near(Some(found), speed), "{text}: {found}");
+                }
+                (found, course) => assert_eq!(found, course, "{text}"),
+            }
+        }
+    }
+    for (text, top) in [(CASES[3].0, 200.0), (CASES[4].0, 300.0)] {
+        for seen in Rule::read(text, FPS).unwrap().motions() {
+            let Some(gain) = seen.accelerates else { panic!("{text}: {seen:?}") };
+            assert!(is_near(seen.top_speed, top) && is_near(Some(gain), 900.0), "{text}: {seen:?}");
+        }
+    }
+}
+
+#[test]
+fn a_jump_that_ends_on_a_frame_lasts_no_frame_longer() {
+    for (text, frames) in [
+        ("v -= 6; x += v * dt", [49.0, 49.0]),
+        ("x += v * dt - 4.905 * dt * dt; v -= 9.81 * dt", [25.0, 50.0]),
+    ] {
+        for (fps, frames) in [30.0, 60.0].into_iter().zip(frames) {
+            let seen = Rule::read(text, FPS).unwrap().motion_at(fps);
+            assert_eq!(seen.jump.map(|[_, seconds]| seconds), Some(frames / fps), "{text}: {fps}");
+        }
+    }
 }
 
 #[test]

@@ -88,7 +88,7 @@ impl Parser<'_> {
         }
         Ok(match &function.meaning {
             Meaning::Smooth(smooth) => self.push(Op::Smooth(smooth), &arguments, span),
-            Meaning::Switch(switch) => self.push(Op::Switch(*switch), &arguments, span),
+            Meaning::Switch(switch) => self.limit(Node::new(Op::Switch(*switch), &arguments), span),
             Meaning::If => self.push(Op::If, &arguments, span),
             Meaning::Written(_) => self.written(function, &arguments, &span),
             Meaning::Power => self.push(Op::Power, &arguments, span),
@@ -122,7 +122,7 @@ impl Parser<'_> {
                     let step = self.scope.input("dt").unwrap_or_default();
                     self.node(Node::input(step), span.clone())
                 }
-                _ => self.node(node.reading(|operand| nodes[operand]), span.clone()),
+                _ => self.limit(node.reading(|operand| nodes[operand]), span.clone()),
             };
             nodes.push(new);
         }

@@ -51,6 +51,8 @@ pub(super) struct Taken {
     /// The index of its name; `None` for the acceleration.
     pub(super) name: Option<usize>,
     pub(super) is_whole: bool,
+    /// Its number where a lane gives none.
+    pub(super) default: u32,
     /// The byte range of its name, which its description may follow.
     pub(super) span: Range<usize>,
 }
@@ -372,6 +374,12 @@ impl StepText {
     /// Whether a step uses this general form.
     pub fn uses(&self, general: General) -> bool {
         self.machine.generals.contains(&general)
+    }
+
+    /// Returns the number of substeps of a lane that gives none.
+    pub fn default_substeps(&self) -> u32 {
+        let taken = self.inputs.iter().find(|taken| taken.input == Some(Input::Substeps));
+        taken.map_or(1, |taken| taken.default)
     }
 
     /// Whether the method takes this setting.

@@ -6,6 +6,7 @@ use std::slice;
 pub(super) use frames::{COST, COUNT, FIRST, FRAME_NAMES, LENGTH, NOW, REFRESH, SECOND, SHOWN};
 use functions::end_of;
 pub(super) use spin::SPIN_NAMES;
+use values::CONSTANTS;
 
 use super::method::{Array, Function as OwnFunction, Machine, Taken};
 use super::paths::{SMOOTH_DAMP, damped_velocity};
@@ -123,11 +124,7 @@ impl Scope for Reader<'_> {
     }
 
     fn constant(&self, name: &str) -> Option<f64> {
-        match name {
-            "pi" => Some(std::f64::consts::PI),
-            "nan" => Some(f64::NAN),
-            _ => None,
-        }
+        CONSTANTS.iter().find(|(names, _)| names.contains(&name)).map(|(_, value)| *value)
     }
 
     fn own_function(&self, name: &str) -> Option<(usize, Vec<bool>)> {

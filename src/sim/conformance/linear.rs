@@ -38,21 +38,18 @@ fn error<B: Body<Vector = f64> + 'static>(
 }
 
 /// Measures whether the method is exact on springs, with drag and without, and on the ship.
+pub(super) fn is_exact(method: &Method) -> Measured {
+    let errors = [
+        error(method, &spring(1.0, 0.0), 0.7)?,
+        error(method, &spring(1.0, 0.2), 0.7)?,
+        error(method, &spring(9.0, 0.1), 0.7)?,
+        error(method, &SHIP, 1.3)?,
+    ];
+    let most = errors.into_iter().fold(0.0, f64::max);
+    let words = format!("off by {most:.1e} on springs and the ship");
+    if (EXACT..=INEXACT).contains(&most) { Err(words.into()) } else { Ok((most < EXACT, words)) }
+}
+
 pub(super) fn exact_if_linear(method: &Method) -> Claim {
-    let measure = || -> Measured {
-        let errors = [
-            error(method, &spring(1.0, 0.0), 0.7)?,
-            error(method, &spring(1.0, 0.2), 0.7)?,
-            error(method, &spring(9.0, 0.1), 0.7)?,
-            error(method, &SHIP, 1.3)?,
-        ];
-        let most = errors.into_iter().fold(0.0, f64::max);
-        let words = format!("off by {most:.1e} on springs and the ship");
-        if (EXACT..=INEXACT).contains(&most) {
-            Err(words.into())
-        } else {
-            Ok((most < EXACT, words))
-        }
-    };
-    yes_or_no("exact_if_linear", method.exact_if_linear, measure())
+    yes_or_no("exact_if_linear", method.exact_if_linear, is_exact(method))
 }

@@ -2,11 +2,13 @@
 
 use super::Claim;
 use super::problems::{
-    Air, Kepler, Problem, SHIP, course_in_air, fixed_step, kepler_orbit, problem, spring,
+    Air, Kepler, KeplerRadius, Problem, SHIP, course_in_air, fixed_step, kepler_orbit, problem,
+    spring,
 };
 use crate::body::Body;
-use crate::integrators::Method;
+use crate::integrators::{Method, StepFailure};
 use crate::state::{State, Vector};
+use crate::system::System;
 
 /// Number of halvings that must agree.
 const HALVINGS: usize = 4;
@@ -32,6 +34,9 @@ const MOMENTS: u32 = 8;
 
 /// The time span on springs, in seconds. It is no multiple of the springs' period 2π, of its half or of its quarter.
 const SWING: f64 = 7.7;
+
+/// The time span on an orbit from its farthest point past the nearest, in seconds.
+const LONG_ARC: f64 = 4.4;
 
 /// The tolerance of a measured order.
 const MARGIN: f64 = 0.1;
@@ -179,27 +184,55 @@ pub(super) fn without_drag(method: &Method) -> Claim {
 }
 
 fn measured_without_drag(method: &Method, expected: u32) -> Vec<Result<MeasuredOrders, String>> {
-    // The approach to the centre magnifies earlier rounding. So the span starts at the farthest point from the centre
-    // and ends past the nearest, or half-way to it for an order of 5. On the longer arc the next term hides
-    // Dormand-Prince's leading term until both are round-off.
-    let (span, round_off) = if expected < 5 { (4.4, 2e-14) } else { (1.5, 2e-15) };
-    let half_a_revolution = std::f64::consts::PI;
-    let at = |moment| span * f64::from(moment) / f64::from(MOMENTS) + half_a_revolution;
-    let orbit = ConvergenceTest {
-        name: "orbit",
-        system: problem(Kepler),
-        span,
-        truths: (0..=MOMENTS).map(|moment| kepler_orbit(0.3, at(moment))).collect(),
-        round_off,
-        times: 12,
-        halvings: halvings(expected),
+    let orbit = match is_for_one_coordinate(method) {
+        true => {
+            let radius = KeplerRadius { eccentricity: 0.5 };
+            on_orbit(method, "radius of the orbit", radius, expected, LONG_ARC, |t| radius.at(t))
+        }
+        // On the long arc the next term hides Dormand-Prince's leading term until both are round-off.
+        false => {
+            let arc = if expected < 5 { LONG_ARC } else { 1.5 };
+            on_orbit(method, "orbit", Kepler, expected, arc, |t| kepler_orbit(0.3, t))
+        }
     };
-    let mut measured = vec![measure(method, &orbit, expected)];
+    let mut measured = vec![orbit];
     if !method.exact_if_linear {
         let spring = ConvergenceTest::of_body("undamped spring", spring(1.0, 0.0), SWING, HALVINGS);
         measured.insert(0, measure(method, &spring, expected));
     }
     measured
+}
+
+/// Measures the orders on an arc of an orbit, of which `truth` has the state at a time after periapsis.
+fn on_orbit<S: System<Vector: Vector> + 'static>(
+    method: &Method,
+    name: &'static str,
+    system: S,
+    expected: u32,
+    span: f64,
+    truth: impl Fn(f64) -> State<S::Vector>,
+) -> Result<MeasuredOrders, String> {
+    // The approach to the centre magnifies earlier rounding. So the span starts at the farthest point from the centre.
+    let round_off = if expected < 5 { 2e-14 } else { 2e-15 };
+    let half_a_revolution = std::f64::consts::PI;
+    let at = |moment| span * f64::from(moment) / f64::from(MOMENTS) + half_a_revolution;
+    let orbit = ConvergenceTest {
+        name,
+        system: problem(system),
+        span,
+        truths: (0..=MOMENTS).map(|moment| truth(at(moment))).collect(),
+        round_off,
+        times: 12,
+        halvings: halvings(expected),
+    };
+    measure(method, &orbit, expected)
+}
+
+/// Whether the method refuses a body of two coordinates.
+fn is_for_one_coordinate(method: &Method) -> bool {
+    let mut state = kepler_orbit(0.3, 0.0);
+    let stepped = fixed_step(method, &state.q).step(&problem(Kepler), 0.0, 1e-3, &mut state);
+    matches!(stepped, Err(StepFailure::Refused { .. }))
 }
 
 /// Measures the order on a damped spring and on the ship, or on a body in air if the method is exact on both.

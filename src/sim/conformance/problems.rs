@@ -92,3 +92,27 @@ pub fn kepler_orbit(eccentricity: f64, t: f64) -> State<DVec2> {
     let rate = 1.0 / (1.0 - e * cos);
     State { q: DVec2::new(cos - e, b * sin), v: DVec2::new(-sin, b * cos) * rate }
 }
+
+/// The distance of a point on [`Kepler`]'s orbit from the centre, for a method that steps one coordinate. The half axis
+/// is 1.
+#[derive(Clone, Copy, Debug)]
+pub struct KeplerRadius {
+    /// The eccentricity of the orbit.
+    pub eccentricity: f64,
+}
+
+impl KeplerRadius {
+    /// Returns the distance and its rate at time `t` after periapsis.
+    pub fn at(&self, t: f64) -> State<f64> {
+        let State { q, v } = kepler_orbit(self.eccentricity, t);
+        State { q: q.length(), v: q.dot(v) / q.length() }
+    }
+}
+
+impl System for KeplerRadius {
+    type Vector = f64;
+    fn acceleration(&self, _t: f64, q: &f64, _v: &f64, a: &mut f64) {
+        let momentum = 1.0 - self.eccentricity * self.eccentricity;
+        *a = (momentum / q - 1.0) / (q * q);
+    }
+}

@@ -1,12 +1,13 @@
 //! The top speed, the acceleration and the jump of a rule that drives its velocity without looking at the place.
 
 use super::{MAX_WATCHED, Rule};
-use crate::sim::law::Frame;
 
 /// Number of frames of the author in which gravity stops the speed of a jump.
 const FRAMES_UP: f64 = 25.0;
 /// A speed that changes by less than this fraction in a frame is the top speed.
 const STEADY: f64 = 1e-13;
+/// A height below this fraction of the top is 0 up to rounding.
+const LANDED: f64 = 1e-9;
 
 impl Rule {
     /// Returns the top speed and the acceleration from rest.
@@ -18,19 +19,16 @@ impl Rule {
             let drifts = frame.filter(|it| it.map.m11 == 1.0 && it.by_target.x == 0.0);
             return [drifts.and_then(|it| some(it.offset.x * fps)), None];
         }
-        let causes = self.text.with_causes(vec![1]);
-        if causes.contains(&0) {
-            return [None; 2];
+        if self.is_linear {
+            let map = self.text.map_on(&self.modes, h, &vec![0.0; self.text.carried().len()], 0.0);
+            let mut causes = map.columns[..self.text.carried().len()].iter().enumerate();
+            if causes.all(|(index, column)| index == 1 || column[1] == 0.0) {
+                let (kept, gained) = (map.columns[1][1], map.values[1]);
+                let top = (kept.abs() < 1.0).then_some(gained / (1.0 - kept)).and_then(some);
+                return [top, some(gained * fps).filter(|_| kept != 0.0)];
+            }
         }
-        if self.is_linear && causes.len() == 1 {
-            let Some(frame) = Frame::of(&self.text, &self.modes, &causes, h) else {
-                return [None; 2];
-            };
-            let (kept, gained) = (frame.map.m11, frame.offset.x);
-            let top = (kept.abs() < 1.0).then_some(gained / (1.0 - kept)).and_then(some);
-            return [top, some(gained * fps).filter(|_| kept != 0.0)];
-        }
-        if !self.modes.is_empty() {
+        if !self.modes.is_empty() || self.text.with_causes(vec![1]).contains(&0) {
             return [None; 2];
         }
         let mut registers = self.text.registers();
@@ -56,7 +54,20 @@ impl Rule {
         let [None, Some(acceleration)] = self.driven(self.fps) else { return None };
         let moves = self.text.with_causes(vec![0]).iter().all(|index| *index < 2);
         let is_moved = moves && !self.text.leaves_unchanged(0);
-        is_moved.then_some(-FRAMES_UP * acceleration / self.fps)
+        let start = -FRAMES_UP * acceleration / self.fps;
+        (is_moved && self.is_in_piece(start)).then_some(start)
+    }
+
+    /// Whether a jump with this speed rises and falls in the piece whose map this rule is.
+    fn is_in_piece(&self, start: f64) -> bool {
+        let h = self.step_length(self.fps);
+        let half_height = FRAMES_UP / 4.0 * start * if self.takes_step() { h } else { 1.0 };
+        let is_in = |speed: f64| {
+            let mut at = vec![0.0; self.text.carried().len()];
+            (at[0], at[1]) = (half_height, speed);
+            self.text.modes(h, &at, 0.0) == self.modes
+        };
+        self.modes.is_empty() || is_in(start) && is_in(-start)
     }
 
     /// Returns the height of a jump and its time in seconds, until it is back where it began.
@@ -69,7 +80,7 @@ impl Rule {
         for frame in 1..MAX_WATCHED as u32 {
             self.text.step(&mut registers, self.step_length(fps), 0.0);
             let place = self.text.value(&registers, 0) * start.signum();
-            if place.is_nan() || place <= 0.0 {
+            if place.is_nan() || place <= LANDED * height {
                 return (height > 0.0).then_some([height, f64::from(frame) / fps]);
             }
             height = height.max(place);

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::Rule;
+use super::{Motion, Rule};
 use crate::sim::law::{Frame, SwitchKind};
 
 /// Number of states that are tried to find the pieces, and the decades over which they spread.
@@ -40,13 +40,19 @@ pub enum Course {
     Stays,
     /// It moves at this speed, whatever the distance.
     Moves(f64),
+    /// The target decides its speed.
+    ByTarget,
 }
 
 impl Rule {
     /// Returns the pieces of a rule that is linear only piece by piece; empty for all other rules.
     pub fn pieces(&self) -> Vec<Piece> {
         let has_many = self.text.switches().any(|(kind, _)| kind == SwitchKind::Many);
-        let mut pieces = self.find_pieces().unwrap_or_default();
+        let find = |mirrored: &[SwitchKind]| self.find_pieces(mirrored).unwrap_or_default();
+        let mut pieces = find(&[SwitchKind::Limit, SwitchKind::Sign]);
+        if pieces.len() == 1 && !has_many {
+            pieces = find(&[]);
+        }
         match &mut pieces[..] {
             [one] if has_many => one.condition = "in each turn".into(),
             [_] => return Vec::new(),
@@ -55,7 +61,8 @@ impl Rule {
         pieces
     }
 
-    fn find_pieces(&self) -> Option<Vec<Piece>> {
+    /// Returns the pieces. Two that move alike in opposite directions are one if only switches of these kinds differ.
+    fn find_pieces(&self, mirrored: &[SwitchKind]) -> Option<Vec<Piece>> {
         let (text, h) = (&self.text, self.step_length(self.fps));
         let switches: Vec<(SwitchKind, &str)> = text.switches().collect();
         if self.is_linear || switches.is_empty() || self.state.len() > 2 {
@@ -86,7 +93,20 @@ impl Rule {
             if !self.is_affine(&modes, &at) {
                 return None;
             }
-            let is_it = |(other, _): &&mut (Frame, _)| is_alike(other, &frame, has_many);
+            let are_mirrored = |known: &Vec<i64>| {
+                let mut all = switches.iter().zip(known.iter().zip(&modes));
+                all.all(|((kind, _), (a, b))| {
+                    a == b || *kind == SwitchKind::Many || mirrored.contains(kind)
+                })
+            };
+            let is_it = |(other, known): &&mut (Frame, Vec<Vec<i64>>)| {
+                let offsets = match known.iter().any(are_mirrored) {
+                    true if has_many => Offsets::Any,
+                    true => Offsets::Opposite,
+                    false => Offsets::Equal,
+                };
+                is_alike(other, &frame, offsets)
+            };
             match groups.iter_mut().find(is_it) {
                 Some((_, all)) => all.push(modes),
                 None => groups.push((frame, vec![modes])),
@@ -106,7 +126,12 @@ impl Rule {
                 let modes = modes.clone();
                 let mut rule = Rule::with_state(Arc::clone(text), self.fps, self.state.clone());
                 (rule.units, rule.within, rule.is_linear) = (self.units, self.within, true);
-                rule.modes.clone_from(&modes[0]);
+                // Of two opposite motions, the one towards larger numbers.
+                let rises = |modes: &&Vec<i64>| {
+                    let frame = Frame::of(text, modes, &self.state, h);
+                    frame.is_some_and(|frame| frame.offset.sum() > 0.0)
+                };
+                rule.modes.clone_from(modes.iter().find(rises).unwrap_or(&modes[0]));
                 Piece { condition, rule: rule.settled(), modes }
             })
             .collect();
@@ -151,19 +176,28 @@ impl Rule {
         at_rest: &[i64],
     ) -> String {
         let mut parts: Vec<String> = Vec::new();
-        for (index, (kind, source)) in self.text.switches().enumerate() {
-            let mode = modes[0][index];
-            let is_common = modes.iter().all(|modes| modes[index] == mode);
+        let switches: Vec<(SwitchKind, &str)> = self.text.switches().collect();
+        for (index, (kind, source)) in switches.iter().enumerate() {
+            // The two limits of a `clamp` are one switch, of mode 1 if both leave its number.
+            let twins: Vec<usize> =
+                (0..switches.len()).filter(|other| switches[*other] == switches[index]).collect();
+            let is_clamp = *kind == SwitchKind::Limit && twins.len() == 2;
+            let mode_of = |modes: &Vec<i64>| match is_clamp {
+                true => i64::from(twins.iter().all(|index| modes[*index] == 1)),
+                false => modes[index],
+            };
+            let mode = mode_of(&modes[0]);
+            let is_common = modes.iter().all(|modes| mode_of(modes) == mode);
             let mut all = groups.iter().flat_map(|(_, modes)| modes);
-            if !is_common || all.all(|modes| modes[index] == mode) {
+            if !is_common || all.all(|modes| mode_of(modes) == mode) {
                 continue;
             }
             let source = source.split_whitespace().collect::<Vec<_>>().join(" ");
+            let within = if is_clamp { 1 } else { at_rest[index] };
             let part = match kind {
                 SwitchKind::Condition => condition(&source, mode == 1),
-                SwitchKind::Limit if mode == at_rest[index] => {
-                    format!("within the limits of `{source}`")
-                }
+                SwitchKind::Limit if mode == within => format!("within the limits of `{source}`"),
+                SwitchKind::Limit if is_clamp => format!("beyond the limits of `{source}`"),
                 SwitchKind::Limit => format!("at a limit of `{source}`"),
                 SwitchKind::Sign if mode == 1 => format!("`{source}` of a number above 0"),
                 SwitchKind::Sign => format!("`{source}` of a number below 0"),
@@ -183,14 +217,32 @@ impl Piece {
         let rule = &self.rule;
         let frame = rule.frame(rule.fps)?;
         let is_0 = |number: f64| number.abs() <= ALIKE;
-        if rule.motion(rule.fps)?.radius() <= ALIKE {
-            return Some(Course::Stops);
+        let motion = rule.motion(rule.fps)?;
+        let is_speed = rule.state == [1];
+        let moved = |per_frame: f64, frames: f64| match per_frame {
+            still if is_0(still) => None,
+            moved => Some(Course::Moves(moved.abs() * frames)),
+        };
+        if motion.radius() <= ALIKE {
+            // The velocity after a frame is the same after every frame, and moves the place.
+            let [by_offset, by_target] = match motion {
+                Motion::Coast { .. } => {
+                    [frame.map * frame.offset, frame.map * frame.by_target].map(|it| it.x)
+                }
+                _ if is_speed => [frame.offset.x, frame.by_target.x],
+                _ => [0.0; 2],
+            };
+            if !is_0(by_target) {
+                return Some(Course::ByTarget);
+            }
+            let frames = if is_speed { 1.0 } else { rule.fps };
+            return moved(by_offset, frames).or(Some(Course::Stops));
         }
         let keeps = is_0(frame.map.m11 - 1.0) && is_0(frame.map.m12) && is_0(frame.by_target.x);
-        keeps.then(|| match frame.offset.x {
-            offset if is_0(offset) => Course::Stays,
-            offset => Course::Moves(offset.abs() * rule.fps),
-        })
+        if !keeps || is_speed {
+            return None;
+        }
+        moved(frame.offset.x, rule.fps).or(Some(Course::Stays))
     }
 
     /// Returns when the whole `rule` first is in this piece at the author's rate, in seconds, from rest at 1.
@@ -209,13 +261,24 @@ impl Piece {
     }
 }
 
-/// Whether two pieces move alike, perhaps in opposite directions.
-fn is_alike(a: &Frame, b: &Frame, any_offset: bool) -> bool {
+/// The offsets of two pieces that move alike.
+#[derive(Clone, Copy)]
+enum Offsets {
+    Equal,
+    Opposite,
+    Any,
+}
+
+fn is_alike(a: &Frame, b: &Frame, offsets: Offsets) -> bool {
     let near = |a: f64, b: f64| (a - b).abs() <= ALIKE * (1.0 + a.abs().max(b.abs()));
     let mut numbers = a.map.iter().chain(&a.by_target).zip(b.map.iter().chain(&b.by_target));
-    let mut offsets = a.offset.iter().zip(&b.offset);
+    let mut both = a.offset.iter().zip(&b.offset);
     numbers.all(|(a, b)| near(*a, *b))
-        && (any_offset || offsets.all(|(a, b)| near(a.abs(), b.abs())))
+        && both.all(|(a, b)| match offsets {
+            Offsets::Equal => near(*a, *b),
+            Offsets::Opposite => near(a.abs(), b.abs()),
+            Offsets::Any => true,
+        })
 }
 
 /// Writes a comparison of the lines that is true or false.

@@ -24,11 +24,16 @@ pub(super) fn lines(method: &Method, text: &StepText, language: Language) -> Vec
         format!("{} ({}): {}.", method.name, method.id, method.about),
         format!("Source: {}.", method.source),
         String::new(),
-        format!("Order: {order}. Evaluations per step: {}.", evaluations(method, text)),
-        format!("Stability: {stability}."),
-        format!("Symplectic: {symplectic}. Reversible: {}.", yes(method.reversible)),
-        format!("Memory: {}.", memory(method, text)),
     ];
+    match method.only.filter(|_| method.is_from_outside()) {
+        Some(only) => paragraphs.push(format!("Not measured: {}.", only.reason)),
+        None => paragraphs.extend([
+            format!("Order: {order}. Evaluations per step: {}.", evaluations(method, text)),
+            format!("Stability: {stability}."),
+            format!("Symplectic: {symplectic}. Reversible: {}.", yes(method.reversible)),
+            format!("Memory: {}.", memory(method, text)),
+        ]),
+    }
     if let Some(tolerance) = method.tolerance {
         let of_x = match tolerance.absolute_q.is_finite() {
             true => "x and v",

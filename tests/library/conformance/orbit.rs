@@ -1,5 +1,6 @@
 //! An eccentric orbit, and the truth that methods are compared with on it.
 
+use regatta::conformance::problems::KeplerRadius;
 use regatta::sim::System;
 use regatta::sim::integrators::{integrator, method};
 
@@ -39,6 +40,12 @@ fn the_kepler_orbit_of_the_tests_solves_its_equation() {
             Kepler.acceleration(t, &at.q, &at.v, &mut a);
             let (v, found) = ((after.q - before.q) / (2.0 * d), (after.v - before.v) / (2.0 * d));
             assert!((v - at.v).length() < 1e-6 && (found - a).length() < 1e-6, "{e} at {t}");
+            let radius = KeplerRadius { eccentricity: e };
+            let [before, at, after] = [t - d, t, t + d].map(|t| radius.at(t));
+            let mut a = 0.0;
+            radius.acceleration(t, &at.q, &at.v, &mut a);
+            let [v, found] = [after.q - before.q, after.v - before.v].map(|it| it / (2.0 * d));
+            assert!((v - at.v).abs() < 1e-6 && (found - a).abs() < 1e-6, "{e} at {t}");
         }
         let home = (kepler_orbit(e, std::f64::consts::TAU).q - kepler_orbit(e, 0.0).q).length();
         assert!(home < 1e-13, "{e}: {home}");

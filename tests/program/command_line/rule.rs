@@ -186,3 +186,22 @@ fn a_drive_that_depends_on_the_frame_rate_says_so() {
         assert_eq!(line.unwrap_or_default(), wanted, "{lines}");
     }
 }
+
+#[test]
+fn a_limited_drive_in_pieces_is_shown_from_rest_and_piece_by_piece() {
+    let lines = "v += 900*dt; v = clamp(v, -200, 200); x += v*dt";
+    let said = String::from_utf8(rule(&[lines]).stdout).unwrap();
+    let table = said.split("from rest, through all pieces:\n").nth(1).unwrap();
+    let rows: Vec<Vec<&str>> =
+        table.lines().take(8).map(|line| line.split_whitespace().collect()).collect();
+    assert_eq!(rows[0][..3], ["FPS", "TOP", "SPEED"]);
+    for row in &rows[1..] {
+        assert_eq!(row[1..3], ["200.0", "900.0"], "{said}");
+    }
+    assert!(said.contains("it moves at a constant 200.0 a second, at every frame rate"), "{said}");
+    assert!(!said.contains("HALVES"), "{said}");
+    let found = json(&[lines]);
+    for row in found["seen"].as_array().unwrap() {
+        assert!(is_near(&row["top_speed"], 200.0) && is_near(&row["accelerates"], 900.0), "{row}");
+    }
+}

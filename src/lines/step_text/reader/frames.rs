@@ -84,7 +84,7 @@ impl Reader<'_> {
             let what = format!("a loop takes no `{}`", quoted(word));
             return fault(span, what, "write `takes whole dt`, or remove it");
         }
-        self.inputs.push(Taken { input: None, name: Some(H), is_whole: true, span });
+        self.inputs.push(Taken { input: None, name: Some(H), is_whole: true, default: 1, span });
         Ok(())
     }
 

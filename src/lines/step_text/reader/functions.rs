@@ -7,7 +7,7 @@ use crate::fault::{Parsed, fault, quoted};
 use crate::step_text::method::{Function, General, Input, Taken};
 use crate::step_text::plain::plain;
 use crate::step_text::statements::{Statement, statements};
-use crate::step_text::{Line, TARGET, X};
+use crate::step_text::{Line, MAX_SUBSTEPS, TARGET, X};
 use crate::token::is_name_part;
 
 /// The maximum number of functions of a text.
@@ -42,12 +42,25 @@ impl Reader<'_> {
     /// Reads an input of the lines, such as `whole substeps`.
     pub(super) fn take(&mut self, span: Range<usize>) -> Parsed<()> {
         let text = self.text[span.clone()].trim();
+        let end = span.start + self.text[span.clone()].trim_end().len();
+        let (text, number) = match text.split_once('=') {
+            Some((text, number)) => (text.trim_end(), Some(number.trim())),
+            None => (text, None),
+        };
         let is_whole = text.starts_with("whole ");
         let name = text.strip_prefix("whole ").unwrap_or(text).trim();
         let name = name.split('(').next().unwrap_or_default().trim_end();
         let start = span.start + self.text[span.clone()].find(name).unwrap_or(0);
         let span = start..start + name.len();
         let setting = Input::ALL.iter().find(|(known, _)| *known == name).map(|(_, input)| *input);
+        let is_default =
+            |n: &u32| setting == Some(Input::Substeps) && (1..=MAX_SUBSTEPS).contains(n);
+        let default = number.map_or(Some(1), |number| number.parse().ok().filter(is_default));
+        let Some(default) = default else {
+            let what = format!("`{}` is no number of substeps", quoted(number.unwrap_or("")));
+            let remedy = "write 1 to 1000 in `takes whole substeps = 4`, or leave it out";
+            return fault(span.start..end, what, remedy);
+        };
         let index = match name {
             "target" => {
                 self.takes_target = true;
@@ -68,7 +81,7 @@ impl Reader<'_> {
                 return fault(span, what, remedy);
             }
         };
-        self.inputs.push(Taken { input: setting, name: index, is_whole, span });
+        self.inputs.push(Taken { input: setting, name: index, is_whole, default, span });
         Ok(())
     }
 

@@ -1,5 +1,6 @@
 //! The values of names while the lines of a step are read, and the operations of a rule.
 
+use std::f64::consts::PI;
 use std::ops::Range;
 
 use super::{Block, Reader};
@@ -8,6 +9,27 @@ use crate::fault::{Parsed, fault};
 use crate::op::Op;
 use crate::step_text::{BUILT_IN, V};
 use crate::tape::MAX_OPERATIONS;
+
+/// Names of constants in games. A limit may be infinite, and a component of a zero vector is 0.
+pub(super) const CONSTANTS: [(&[&str], f64); 4] = [
+    (&["pi"], PI),
+    (&["nan"], f64::NAN),
+    (
+        &[
+            "infinity",
+            "Infinity",
+            "INFINITY",
+            "inf",
+            "INF",
+            "huge",
+            "positiveInfinity",
+            "PositiveInfinity",
+            "positive_infinity",
+        ],
+        f64::INFINITY,
+    ),
+    (&["zero", "zeroVector"], 0.0),
+];
 
 impl Reader<'_> {
     /// Notes that a method reads these names, of which those without a value are carried.
