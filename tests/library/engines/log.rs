@@ -130,6 +130,7 @@ impl Log {
             "physx-tgs" => "engine-physx-tgs",
             "physx-tgs-56" => "engine-physx-tgs-56",
             "bullet" => "engine-bullet",
+            "bullet-6dof" => "engine-bullet-6dof",
             "pybullet-multibody" => "engine-pybullet",
             "chipmunk" => "engine-chipmunk",
             "mujoco-Euler"
