@@ -77,6 +77,7 @@ mod mujoco_discrete;
 mod mujoco_rk4;
 mod nape;
 mod newmark;
+mod newton_xpbd;
 mod oimo;
 mod oimo_symplectic;
 mod pefrl;
@@ -338,6 +339,7 @@ methods! {
     excalibur::Excalibur as EngineMethod,
     mujoco_discrete::MujocoDiscrete as EngineMethod,
     bullet_6dof::Bullet6dof as EngineMethod,
+    newton_xpbd::NewtonXpbd as EngineMethod,
     held_force::HeldForce as EngineMethod,
     gyro_off::GyroOff as Gyro,
     gyro_explicit::GyroExplicit as Gyro,
