@@ -2,6 +2,7 @@
 
 mod columns;
 mod steps;
+mod units;
 
 use std::io::BufRead;
 
@@ -9,6 +10,7 @@ use csv::ByteRecord;
 
 use columns::{Columns, OF_X, TimeColumn};
 use steps::count_steps;
+use units::note_on_units;
 
 use crate::scene::clip;
 use crate::sim::number::significant;
@@ -255,6 +257,7 @@ impl Rows {
         if !is_uneven {
             taken.notes.extend(count_steps(&mut rows, tick_hz));
         }
+        taken.notes.extend(note_on_units(&rows, tick_hz));
         // A frame that came late skips ticks of the clock, but none of the motion.
         let gaps = rows.windows(2).filter(|pair| pair[1].tick > pair[0].tick + 1).count();
         let is_late =
