@@ -201,7 +201,7 @@ impl Wish {
 pub enum PortOutcome {
     /// The engine shows the wish, to rounding.
     Reached,
-    /// The engine does not show the wish; the settings come nearest.
+    /// The engine does not show the wish, or only in the mean; the settings come nearest.
     Nearest,
     /// The engine does not show the wish, because the engine itself damps more; the settings come nearest.
     Unreachable,
@@ -287,7 +287,8 @@ pub fn port(wish: &Wish, setup: Setup) -> Option<Ported> {
     let least = min_damping(&sees, wanted.omega).map(|(_, ratio)| ratio);
     let floor = least.filter(|ratio| *ratio > REACHED);
     let is_below = floor.is_some_and(|floor| wish.damping_ratio < floor);
-    let outcome = match missed <= REACHED {
+    let is_reached = missed <= REACHED && setup.mode.is_linear(joint[1]);
+    let outcome = match is_reached {
         true => PortOutcome::Reached,
         false if is_below => PortOutcome::Unreachable,
         false => PortOutcome::Nearest,

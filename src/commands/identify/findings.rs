@@ -369,7 +369,9 @@ pub(super) fn report_text(found: &Identification, log: &Log, mass: f64) -> Strin
             lines.push(format!("as stiff as {} N/m", significant(stiffness * mass, 4)));
         }
     }
-    if let Some(exact) = exact {
+    // Where no method fits a spring, it would be that of the swing above.
+    let is_swing = *conclusion == Conclusion::Unknown && found.is_spring_fitted;
+    if let Some(exact) = exact.as_ref().filter(|_| !is_swing) {
         let fitted =
             if found.is_spring_fitted { "by the spring that fits" } else { "the equation says" };
         lines.push(format!("{fitted}: {}", motion_text(exact)));

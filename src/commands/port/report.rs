@@ -228,7 +228,7 @@ fn engine_text(wish: &Wish, PortedEngine { setup, ported }: &PortedEngine) -> St
 
 /// Describes how far the settings miss the wish, and why, if they do.
 fn miss_note(wish: &Wish, ported: &Ported) -> Option<String> {
-    let Setup { method, substeps, tick_hz, .. } = ported.setup;
+    let Setup { method, mode, substeps, tick_hz } = ported.setup;
     let three = |ratio: f64| significant(ratio, 3);
     let [hz, tick_hz] = [round(wish.frequency_hz, 4), round(tick_hz, 6)];
     match (ported.outcome, ported.floor) {
@@ -253,7 +253,12 @@ fn miss_note(wish: &Wish, ported: &Ported) -> Option<String> {
         _ => {
             let off = 100.0 * (ported.sees.undamped_hz() / wish.frequency_hz - 1.0);
             let ratio = ported.sees.damping_ratio().unwrap_or(0.0) - wish.damping_ratio;
-            Some(format!("missed: frequency by {off:+.3} %, damping ratio by {ratio:+.4}"))
+            let [_, damping] = mode.joint(ported.values, wish.mass_kg);
+            let mean = match mode.is_linear(damping) {
+                true => "",
+                false => " in the mean of the first turns, for its damping is not linear",
+            };
+            Some(format!("missed: frequency by {off:+.3} %, damping ratio by {ratio:+.4}{mean}"))
         }
     }
 }

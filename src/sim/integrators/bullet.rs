@@ -4,7 +4,7 @@ use super::prelude::*;
 
 const MODES: [JointMode; 1] = [si_mode(
     "6dof-spring",
-    "// btGeneric6DofSpring2Constraint: the class without the 2, as in ammo.js, damps less for more damping.\nspring->enableSpring(axis, true);\nspring->setStiffness(axis, {stiffness});\nspring->setDamping(axis, {damping});",
+    "// btGeneric6DofSpring2Constraint; the class without the 2, as in ammo.js, is engine-bullet-6dof.\nspring->enableSpring(axis, true);\nspring->setStiffness(axis, {stiffness});\nspring->setDamping(axis, {damping});",
 )];
 
 pub(super) const CARD: Method = Method {

@@ -2,7 +2,7 @@
 
 use super::prelude::*;
 
-const MODES: [JointMode; 4] = [
+const MODES: [JointMode; 6] = [
     si_mode(
         "spring",
         "// A damping of 0 counts as 1: write 1e-9.\nconst spring = new CANNON.Spring(a, b, { stiffness: {stiffness}, damping: {damping} })\nworld.addEventListener('postStep', () => spring.applyForce())\nbody.linearDamping = 0",
@@ -12,6 +12,16 @@ const MODES: [JointMode; 4] = [
         "world.addSpring(new p2.LinearSpring(a, b, { stiffness: {stiffness}, damping: {damping} }))\nbody.damping = 0",
     )
     .of("engine-p2"),
+    si_mode(
+        "prismatic-spring",
+        "plant.set_discrete_contact_approximation(DiscreteContactApproximation.kTamsi)\njoint = plant.AddJoint(PrismaticJoint(name, parent, child, axis, damping={damping}))\nplant.AddForceElement(PrismaticSpring(joint, 0.0, {stiffness}))",
+    )
+    .of("engine-drake-tamsi"),
+    si_mode(
+        "generalized",
+        "<!-- brax.generalized; under brax.spring and brax.positional neither has an effect -->\n<joint type=\"slide\" stiffness=\"{stiffness}\" damping=\"{damping}\"/>",
+    )
+    .of("engine-brax"),
     newton_mode!("newton-featherstone", "SolverFeatherstone"),
     newton_mode!("newton-semi-implicit", "SolverSemiImplicit"),
 ];
@@ -19,7 +29,13 @@ const MODES: [JointMode; 4] = [
 pub(super) const CARD: Method = Method {
     id: "engine-cannon",
     name: "cannon-es",
-    also: &["engine-p2", "engine-newton-featherstone", "engine-newton-semi-implicit"],
+    also: &[
+        "engine-p2",
+        "engine-drake-tamsi",
+        "engine-brax",
+        "engine-newton-featherstone",
+        "engine-newton-semi-implicit",
+    ],
     about: "semi-implicit Euler, whose drag spares the force; cannon-es takes a spring's damping of 0 as 1, and p2-es keeps \
             its numbers in single precision",
     stability_limit: Some(2.0),
@@ -31,12 +47,13 @@ pub(super) const CARD: Method = Method {
             "for (let i = 0; i < {n}; i++) world.step(dt / {n}) // step {n} times with dt / {n}",
         ),
         bounce: Some(EngineBounce::Cannon),
-        version: "0.20.0, and of p2-es 1.2.3 and Newton 1.8.0",
+        version: "0.20.0, and of p2-es 1.2.3, Newton 1.8.0, Drake 1.51.1 and Brax 0.14.2",
         logged: Some("2026-11-27"),
         modes: &MODES,
         ..BARE
     }),
-    source: "runs of cannon-es 0.20.0 and p2-es 1.2.3: Spring, linearDamping; Newton 1.8.0, which has no drag",
+    source: "runs of cannon-es 0.20.0 and p2-es 1.2.3: Spring, linearDamping; Newton 1.8.0, Drake 1.51.1 with TAMSI \
+             and Brax 0.14.2 generalized, without drag",
     formula: &["a = f − K x − c v", "v′ = v e^(−C H) + H a, x′ = x + H v′"],
     ..ENGINE
 };

@@ -6,6 +6,13 @@ use std::f64::consts::TAU;
 pub(super) const FULL_STIFFNESS: f64 = 24_000.0;
 pub(super) const FULL_DAMPING: f64 = 240.0;
 
+/// 1 / (c d² √K) for a setting d of Bullet's btGeneric6DofSpringConstraint, with which the spring shows a slight
+/// damping c at 60 Hz. It is 18π: half a swing loses a share of K / s² of its speed, with 6 d K for the speed s of the
+/// motor.
+pub(super) const MOTOR_LOSS: f64 = 56.5;
+/// The largest such setting, beyond which only rounding damps.
+const NO_LOSS: f64 = 1e6;
+
 /// A way to set a spring in an engine, by one setting for stiffness and one for damping.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct JointMode {
@@ -52,6 +59,8 @@ pub enum JointQuantity {
     DampingPerMass,
     /// The part of its velocity that Matter.js takes from a body in an iteration, at 60 Hz.
     IterationBrake,
+    /// The damping of Bullet's btGeneric6DofSpringConstraint, in m/N, of which less damps more.
+    MotorDamping,
     /// The damping ratio c / (2 √(k m)).
     DampingRatio,
     /// A damping that must stay 0, because with more the spring is not linear.
@@ -66,7 +75,7 @@ impl JointQuantity {
         match self {
             Stiffness => "N/m",
             StiffnessPerMass => "1/s²",
-            Compliance => "m/N",
+            Compliance | MotorDamping => "m/N",
             Frequency => "Hz",
             Damping | Undamped => "N s/m",
             DampingPerMass => "1/s",
@@ -86,6 +95,10 @@ impl JointQuantity {
             Damping => damping * mass_kg,
             DampingPerMass => damping,
             IterationBrake => damping / FULL_DAMPING,
+            MotorDamping => {
+                let loss = MOTOR_LOSS * damping * libm::sqrt(stiffness);
+                (1.0 / libm::sqrt(loss)).min(NO_LOSS) / mass_kg
+            }
             DampingRatio => damping / (2.0 * libm::sqrt(stiffness)),
             Undamped => 0.0,
         }
@@ -109,6 +122,11 @@ impl JointMode {
         [stiffness, if is_undamped { 0.0 } else { damping }]
     }
 
+    /// Whether a tick of a joint with this damping is a linear map.
+    pub fn is_linear(&self, damping: f64) -> bool {
+        self.damping.quantity != MotorDamping || damping == 0.0
+    }
+
     /// Returns the values of the mode's settings for a joint on a mass in kg. The joint is given by its stiffness in
     /// 1/s² and its damping in 1/s, each per unit of mass.
     pub fn values(&self, joint: [f64; 2], mass_kg: f64) -> [f64; 2] {
@@ -129,6 +147,10 @@ impl JointMode {
             Damping => second / mass_kg,
             DampingRatio => 2.0 * second * libm::sqrt(stiffness),
             IterationBrake => second * FULL_DAMPING,
+            MotorDamping => {
+                let setting = second * mass_kg;
+                1.0 / (MOTOR_LOSS * setting * setting * libm::sqrt(stiffness))
+            }
             Undamped => 0.0,
             _ => second,
         };
@@ -195,7 +217,7 @@ mod tests {
     fn any_pair_of_settings_gives_the_same_joint() {
         let joint = [39.5, 0.7];
         for stiffness in [Stiffness, StiffnessPerMass, Compliance, Frequency, IterationPart] {
-            for damping in [Damping, DampingPerMass, DampingRatio, IterationBrake] {
+            for damping in [Damping, DampingPerMass, DampingRatio, IterationBrake, MotorDamping] {
                 let mode = mode("any", ("a", stiffness), ("b", damping), "f({a}, {b})");
                 let back = mode.joint(mode.values(joint, 80.0), 80.0);
                 let is_near = |(a, b): (f64, f64)| (a / b - 1.0).abs() < 1e-14;

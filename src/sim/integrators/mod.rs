@@ -22,6 +22,7 @@ mod box2d;
 mod box2d_2;
 mod box3d;
 mod bullet;
+mod bullet_6dof;
 mod buss_2;
 mod buss_3;
 mod buss_enhanced;
@@ -76,6 +77,7 @@ mod mujoco_discrete;
 mod mujoco_rk4;
 mod nape;
 mod newmark;
+mod newton_xpbd;
 mod oimo;
 mod oimo_symplectic;
 mod pefrl;
@@ -336,6 +338,8 @@ methods! {
     phaser_arcade::PhaserArcade as EngineMethod,
     excalibur::Excalibur as EngineMethod,
     mujoco_discrete::MujocoDiscrete as EngineMethod,
+    bullet_6dof::Bullet6dof as EngineMethod,
+    newton_xpbd::NewtonXpbd as EngineMethod,
     held_force::HeldForce as EngineMethod,
     gyro_off::GyroOff as Gyro,
     gyro_explicit::GyroExplicit as Gyro,

@@ -1,12 +1,16 @@
 //! Reads a log of one coordinate from text, and describes the body that it records.
 
 mod columns;
+mod steps;
+mod units;
 
 use std::io::BufRead;
 
 use csv::ByteRecord;
 
 use columns::{Columns, OF_X, TimeColumn};
+use steps::count_steps;
+use units::note_on_units;
 
 use crate::scene::clip;
 use crate::sim::number::significant;
@@ -250,6 +254,10 @@ impl Rows {
         if rows.iter().all(|row| row.x == rows[0].x && row.v.unwrap_or(0.0) == 0.0) {
             return Err((2, "nothing moves; log a motion".to_owned().into()));
         }
+        if !is_uneven {
+            taken.notes.extend(count_steps(&mut rows, tick_hz));
+        }
+        taken.notes.extend(note_on_units(&rows, tick_hz));
         // A frame that came late skips ticks of the clock, but none of the motion.
         let gaps = rows.windows(2).filter(|pair| pair[1].tick > pair[0].tick + 1).count();
         let is_late =

@@ -1,5 +1,7 @@
 //! Computes the visible motion of a spring in an engine from the map of a tick.
 
+use std::ops::RangeInclusive;
+
 use nalgebra::{Matrix2, RowVector2, Vector2};
 
 use crate::identify::{Candidate, Effective, LoggedBody, SLOW, SpringForm, run};
@@ -24,6 +26,13 @@ type Map = Matrix2<f64>;
 /// Maximum number of Newton iterations for the eigenvalue that a memory adds. This eigenvalue is near 0, and three
 /// iterations are enough.
 const ITERATIONS: u32 = 20;
+
+/// Number of turns from which the motion of a spring is read whose tick is not linear, and the number of ticks beyond
+/// which one turn is enough.
+const TURNS: f64 = 4.0;
+const MAX_TICKS: f64 = 2000.0;
+/// Maximum number of ticks of one turn, which is more than any [wish](super::Wish::check) takes.
+const LONGEST: f64 = 1e5;
 
 impl Setup {
     /// Returns the id of the engine, or of the [other engine](JointMode::engine) that the mode is of.
@@ -59,10 +68,15 @@ impl Setup {
     }
 
     /// Returns the trace and the determinant of a tick's map. In an engine with a memory, they are those of the two
-    /// slowest motions.
+    /// slowest motions; where a tick is not linear, those of its [`mean_map`](Self::mean_map).
     fn invariants(&self, joint: [f64; 2]) -> Option<[f64; 2]> {
         let has_memory = self.method.restart.is_some();
-        let maps = self.maps(self.mode.possible(joint), if has_memory { 3 } else { 1 })?;
+        let joint = self.mode.possible(joint);
+        if !self.mode.is_linear(joint[1]) {
+            let map = self.mean_map(joint)?;
+            return Some([map.trace(), map.determinant()]);
+        }
+        let maps = self.maps(joint, if has_memory { 3 } else { 1 })?;
         match maps[..] {
             [once] => Some([once.trace(), once.determinant()]),
             [once, twice, thrice] => with_memory(&once, &twice, &thrice),
@@ -78,11 +92,38 @@ impl Setup {
 
     /// Returns the maps of 1 to `ticks` ticks, from a start without memory.
     fn maps(&self, spring: [f64; 2], ticks: u64) -> Option<Vec<Map>> {
+        let from = |start| self.run(spring, start, 0..=ticks);
+        columns(&from([SLOW, 0.0])?, &from([0.0, SLOW])?)
+    }
+
+    /// Returns the states at these ticks from a start.
+    fn run(
+        &self,
+        spring: [f64; 2],
+        start: [f64; 2],
+        ticks: RangeInclusive<u64>,
+    ) -> Option<Vec<[f64; 2]>> {
         let &Self { method, mode, tick_hz, substeps } = self;
         let body = LoggedBody { spring: Some(spring), ..LoggedBody::default() };
         let candidate = Candidate { method, substeps, spring: SpringForm::Joint(mode) };
-        let from = |start| run(candidate, &body, start, 1.0 / tick_hz, 0..=ticks);
-        columns(&from([SLOW, 0.0])?, &from([0.0, SLOW])?)
+        run(candidate, &body, start, 1.0 / tick_hz, ticks)
+    }
+
+    /// Returns the linear map nearest to the ticks of the first turns after a release. By least squares, what it leaves
+    /// takes no energy in the mean, so that its swing dies as fast. The ticks count less and less towards the end, so
+    /// that the map has no jumps where the joint changes a little.
+    fn mean_map(&self, spring: [f64; 2]) -> Option<Map> {
+        let turn = std::f64::consts::TAU / libm::sqrt(spring[0]) * self.tick_hz;
+        let end = turn * (MAX_TICKS / turn).clamp(1.0, TURNS);
+        let states = self.run(spring, [SLOW, 0.0], 0..=end.min(LONGEST) as u64)?;
+        let [mut from, mut to] = [Map::zeros(); 2];
+        for (n, pair) in states.windows(2).enumerate() {
+            let left = 1.0 - libm::pow(n as f64 / end, 2.0);
+            let [state, next] = [pair[0], pair[1]].map(|state| Vector2::from(state) / SLOW);
+            from += left * left * state * state.transpose();
+            to += left * left * next * state.transpose();
+        }
+        Some(to * from.try_inverse()?)
     }
 
     /// Returns the map of `ticks` ticks through which user code holds the spring's force.

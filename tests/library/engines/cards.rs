@@ -57,7 +57,9 @@ fn an_engine_has_the_order_of_its_card_with_and_without_drag() {
         let damped = spring_of(method, [4.0, 1.0]);
         let with_drag = order(method, &damped, [1.0, 0.0], oscillator(2.0, 0.5));
         for (found, claimed) in [(straight, method.order), (with_drag, method.order_with_drag)] {
-            let is_near = (found - f64::from(claimed)).abs() < 0.05;
+            // An error that does not shrink may grow, as the damping of Bullet's older spring fades with the tick.
+            let least = if claimed == 0 { -0.2 } else { f64::from(claimed) - 0.05 };
+            let is_near = (least..f64::from(claimed) + 0.05).contains(&found);
             assert!(is_near, "{}: {found}, not {claimed}", method.id);
         }
     }

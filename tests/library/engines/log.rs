@@ -130,6 +130,7 @@ impl Log {
             "physx-tgs" => "engine-physx-tgs",
             "physx-tgs-56" => "engine-physx-tgs-56",
             "bullet" => "engine-bullet",
+            "bullet-6dof" => "engine-bullet-6dof",
             "pybullet-multibody" => "engine-pybullet",
             "chipmunk" => "engine-chipmunk",
             "mujoco-Euler"
@@ -140,7 +141,10 @@ impl Log {
             "mujoco-RK4" => "engine-mujoco-rk4",
             "mujoco-discrete" | "newton-vbd" | "newton-kamino" => "engine-mujoco-discrete",
             "planck" | "box2d-wasm" => "engine-box2d-2",
-            "cannon" | "p2" | "newton-featherstone" | "newton-semi-implicit" => "engine-cannon",
+            "cannon" | "p2" | "newton-featherstone" | "newton-semi-implicit" | "drake-tamsi" => {
+                "engine-cannon"
+            }
+            "newton-xpbd" => "engine-newton-xpbd",
             "matter" => "engine-matter",
             "havok" => "engine-havok",
             "oimophysics-symplectic" => "engine-oimo-symplectic",

@@ -170,6 +170,8 @@ fn an_unexplained_log_is_unknown_with_null_fields() {
     assert_eq!(output.status.code(), Some(0));
     let said = String::from_utf8(output.stdout).unwrap();
     assert!(said.starts_with("unknown: the rows are at uneven times"), "{said}");
+    // The motion of the log stands alone, without that of a spring that does not fit.
+    assert!(said.contains("a player sees: 0.9549 Hz") && !said.contains("by the spring"), "{said}");
     let output = run_in(folder.path(), "identify log.csv --tick-hz 60 --format json");
     let found: Value = serde_json::from_slice(&output.stdout).unwrap();
     assert_eq!((&found["word"], &found["best"]), (&"unknown".into(), &Value::Null));

@@ -13,7 +13,7 @@ use crate::compilers::{build_folder, compile, rustc};
 /// The methods whose function does not make the same operations as the method of the table: those that solve
 /// equations, for which Newton's iteration is written out for one coordinate, and those that use a power or an
 /// exponential, which is not the same in every library. They agree within [`ROUNDING`].
-const OTHER_OPERATIONS: [&str; 18] = [
+const OTHER_OPERATIONS: [&str; 20] = [
     "bogacki-shampine-32",
     "dormand-prince-54",
     "implicit-euler",
@@ -32,6 +32,8 @@ const OTHER_OPERATIONS: [&str; 18] = [
     "engine-godot",
     "engine-cannon",
     "engine-phaser-arcade",
+    "engine-bullet-6dof",
+    "engine-newton-xpbd",
 ];
 /// The largest difference of these, relative to the largest coordinate or velocity of the run.
 const ROUNDING: f64 = 1e-14;
