@@ -18,6 +18,9 @@ use super::system::{Counted, StateOf};
 /// The largest number of impacts within a step. A body that falls back on its wall so often in a step rests.
 const MAX_IMPACTS: u32 = 1000;
 
+/// The height in metres above which a body that rested on a wall flies again.
+const LIFTED: f64 = 1e-9;
+
 /// The largest number of trials for the time of an impact.
 const MAX_TRIALS: u32 = 60;
 
@@ -32,6 +35,8 @@ pub(super) struct Bouncer<P, V> {
     engine: Option<EngineBounce>,
     kept: ([f64; 2], bool),
     bounces: Bounces,
+    /// Whether the body came to rest at its last impact within a step, and has not left the wall.
+    has_rested: bool,
     /// The length of the last tick in seconds.
     last_h: f64,
     from: State<V>,
@@ -51,7 +56,8 @@ impl<P: Clone, V: Vector> Bouncer<P, V> {
             _ => solver.method().and_then(Method::bounce),
         };
         let kept = Default::default();
-        Self { inner, probe, rule, engine, kept, bounces, last_h: 0.0, from, trial, a }
+        let has_rested = false;
+        Self { inner, probe, rule, engine, kept, bounces, has_rested, last_h: 0.0, from, trial, a }
     }
 
     /// Makes one tick of `n` substeps by an engine's rule for the wall that is nearer.
@@ -108,8 +114,9 @@ impl<P: Clone, V: Vector> Bouncer<P, V> {
         // One copy of both would wait until both have been written.
         self.from.q.assign(&y.q);
         let is_within = matches!(self.rule, Rule::Within(_) | Rule::Swept);
+        let is_at_rest = |it: Contact| it.height(y) == 0.0 && it.speed(y) == 0.0;
         if is_within
-            && Contact::all(&body.system, t).any(|it| it.lies(t, y))
+            && Contact::all(&body.system, t).any(is_at_rest)
             && let Some(contact) = self.rest(body, t, y)
         {
             // Other coordinates go on.
@@ -119,7 +126,6 @@ impl<P: Clone, V: Vector> Bouncer<P, V> {
             let contact = contact.at(&body.system, t + h);
             contact.set_height(0.0, y);
             contact.set_speed(0.0, y);
-            // On a wall that swings it has no flights.
             self.bounces.part();
             return Ok(());
         }
@@ -219,7 +225,8 @@ impl<P: Clone, V: Vector> Bouncer<P, V> {
         t: f64,
         y: &State<V>,
     ) -> Option<Contact> {
-        let contact = Contact::all(&body.system, t).find(|it| it.lies(t, y))?;
+        let is_at_rest = |it: &Contact| it.height(y) == 0.0 && it.speed(y) == 0.0;
+        let contact = Contact::all(&body.system, t).find(is_at_rest)?;
         (contact.push(body, t, y, &mut self.a) < 0.0).then_some(contact)
     }
 
@@ -258,9 +265,17 @@ impl<P: Clone, V: Vector> Bouncer<P, V> {
             contact.set_height(0.0, y);
             contact.set_speed(-before.abs(), y);
             let [_, speed] = contact.turn(&body.system, hit_at, y);
-            self.land(body, hit_at, y, [before, speed]);
             let push = contact.push(body, hit_at, y, &mut self.a);
-            if comes_to_rest(speed, push) || push < 0.0 && impacts == MAX_IMPACTS {
+            let rests = comes_to_rest(speed, push) || push < 0.0 && impacts == MAX_IMPACTS;
+            // On a wall that moves, a body at rest meets it again by the rounding of the time.
+            if self.has_rested {
+                self.inner.restart(hit_at, false, &body.system, y);
+            } else {
+                self.land(body, hit_at, y, [before, speed]);
+            }
+            if rests {
+                self.has_rested = true;
+                self.bounces.part();
                 if y.q.components().len() > 1 {
                     self.inner.step(body, hit_at, rest, 1, y)?;
                 }
@@ -413,6 +428,7 @@ where
         if let Some(contact) = Contact::all(&body.system, t + h).next() {
             self.bounces.coordinate = contact.wall.coordinate;
             self.add_height(&body.system, contact, y);
+            self.has_rested &= self.bounces.distance < LIFTED;
         }
         Ok(())
     }
@@ -421,7 +437,7 @@ where
         let is_changed = self.inner.jump(t, change, body, state);
         if is_changed {
             self.bounces.restart();
-            self.kept = Default::default();
+            (self.kept, self.has_rested) = Default::default();
         }
         is_changed
     }

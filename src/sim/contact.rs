@@ -37,14 +37,6 @@ impl Contact {
         self.wall.speed(y.v.components())
     }
 
-    /// Whether the body lies on the wall at time `t` (s), within the rounding of the time if the wall moves.
-    pub(super) fn lies<V: Vector>(self, t: f64, y: &State<V>) -> bool {
-        let Wall { velocity, acceleration, .. } = self.wall;
-        let within = |size: f64| 8.0 * f64::EPSILON * size.abs();
-        self.height(y).abs() <= within(velocity * t)
-            && self.speed(y).abs() <= within(acceleration * t)
-    }
-
     pub(super) fn set_height<V: Vector>(self, height: f64, y: &mut State<V>) {
         y.q.components_mut()[self.wall.coordinate] = self.wall.at + self.wall.side * height;
     }

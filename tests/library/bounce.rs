@@ -420,6 +420,10 @@ fn a_ball_that_sticks_to_a_swinging_floor_meets_it_no_more() {
     let body = Ball { floor_amplitude, floor_frequency, ..ball([0.3, 0.0], 0.3) };
     let (_, ticks) = flights(body, "rk4", "locate", 10.0);
     assert!(ticks.len() > 3 && *ticks.last().unwrap() < 30, "{ticks:?}");
+    // A floor of 1.3 g throws it at each swing, and catches it.
+    let thrown = Ball { floor_amplitude: 0.08, floor_frequency, ..ball([0.0, 0.0], 0.0) };
+    let (_, ticks) = flights(thrown, "rk4", "locate", 10.0);
+    assert!((19..=21).contains(&ticks.len()), "{ticks:?}");
 }
 
 #[test]

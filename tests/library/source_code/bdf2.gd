@@ -57,10 +57,13 @@ static func bdf2(memory: Bdf2Memory, x: float, v: float, h: float, a: Callable) 
 	var c: float = h * 2.0 / 3.0
 	if memory.last_h != h:
 		# The first step is one of Alexander's two-stage SDIRK; its diagonal is 1 - 1 / sqrt(2).
+		# The end is 1 + sqrt(2) times as far as the stage.
 		c = h * 0.2928932188134524
 		var a_stage: float = bdf2_solve(a, x + c * v, v, c * c, c)
-		from_x = x + (h - c) * (v + c * a_stage)
-		from_v = v + (h - c) * a_stage
+		var stage_v: float = v + c * a_stage
+		var stage_x: float = x + c * stage_v
+		from_x = x + 2.414213562373096 * stage_x + -2.414213562373096 * x
+		from_v = v + 2.414213562373096 * stage_v + -2.414213562373096 * v
 	memory.before_x = x
 	memory.before_v = v
 	var a_end: float = bdf2_solve(a, from_x + c * from_v, from_v, c * c, c)
