@@ -106,7 +106,10 @@ impl Cell {
             let mut later = now.clone();
             let ages = before.iter().take(if is_ghost { 0 } else { before.len() });
             for (age, cell) in std::iter::once(&self).chain(ages).enumerate() {
-                let Some((_, q)) = cell.seen.iter().find(|(of, _)| of == whose) else { break };
+                // An earlier picture may be of another scene.
+                let is_same =
+                    |(of, then): &&(Whose, Vec<f64>)| of == whose && then.len() == q.len();
+                let Some((_, q)) = cell.seen.iter().find(is_same) else { break };
                 let then: Vec<Grip> = cell.grips_of(studio, *whose, q).collect();
                 for ((grip, after), now) in then.iter().zip(&later).zip(&now) {
                     let away = distance(at, [grip.at, after.at]);

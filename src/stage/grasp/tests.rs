@@ -40,6 +40,20 @@ fn every_handle_of_every_kind_can_be_grabbed_and_is_at_least_12_points_wide() {
 }
 
 #[test]
+fn a_hand_finds_the_body_of_a_scene_that_was_just_opened() {
+    let open = |scene: &str| Studio::new(Scene::built_in(scene).unwrap());
+    // One coordinate, and two.
+    let pictures = ["duffing", "quarter-car"].map(|scene| picture(&open(scene)));
+    for (now, scene) in ["duffing", "quarter-car"].into_iter().enumerate() {
+        let [cell, before] = [now, 1 - now].map(|of| &pictures[of].cells[0]);
+        let studio = open(scene);
+        for grip in cell.grips(&studio).filter(|grip| grip.whose != Whose::Truth) {
+            assert_eq!(cell.moving_grip_at(&studio, &[before], grip.at), Some(grip), "{scene}");
+        }
+    }
+}
+
+#[test]
 fn a_held_body_is_drawn_under_the_pointer() {
     for kind in BODIES.iter() {
         let mut studio = studio(kind.id);
