@@ -26,7 +26,7 @@ fn bodies(solver: Solver, damping: f64) -> impl Iterator<Item = (&'static str, B
             let start = [2.5, 1.5, 3.0, 0.7, 1.3, -0.4];
             start.into_iter().chain(attitude).chain([2.0, 0.3, -0.2, 0.6]).collect()
         }
-        "ball" => vec![2.5, 1.5, 0.8, 9.81, damping, 0.0, 9.5, 0.0, 3.0],
+        "ball" => vec![2.5, 1.5, 0.8, 9.81, damping, 0.0, 9.5, 0.0, 3.0, 4.77],
         "follow" => vec![2.0, 3.0, 1.2, 0.3, 0.4, 0.6, -0.5, 0.8, 0.3],
         id => panic!("{id} has no values here"),
     };

@@ -67,7 +67,7 @@ const PARAMETERS: [Of; 10] = [
         .about("the change of velocity by one kick"),
     Of::number("penalty_hz", Range::POSITIVE, |ball| &mut ball.penalty_hz)
         .or(SOFT_HZ)
-        .named("frequency of soft walls")
+        .named("soft walls")
         .about("the frequency of walls that are springs, as under the rule `penalty`"),
 ];
 

@@ -85,7 +85,10 @@ fn an_edited_body_continues_as_if_built_with_the_value() {
                     run(&mut **body, 40, end);
                 }
                 assert_eq!(bits(&*body), bits(&*built), "{shown}");
-                assert_ne!(bits(&*body), bits(&*unedited), "{shown}");
+                // Walls are springs under the rule `penalty` only.
+                if kind.parameters[place].key != "penalty_hz" {
+                    assert_ne!(bits(&*body), bits(&*unedited), "{shown}");
+                }
                 assert_eq!(body.energy(), built.energy(), "{shown}");
             }
         }

@@ -36,6 +36,8 @@ fn every_method_has_the_order_with_a_rule_that_its_card_says() {
             let found = order(method, rule, if claimed > 4 { 8 } else { 64 });
             let is_plain = ["rk4", "velocity-verlet"].contains(&method.id);
             let within = if is_plain { 0.05 } else { 0.1 };
+            // Where a memory starts afresh in each flight, the steps after it are few.
+            let within = if claimed > 1 && !is_plain { 0.13 } else { within };
             let off = (found - f64::from(claimed)).abs();
             assert!(off < within, "{} with {rule:?}: {found}, not {claimed}", method.id);
         }

@@ -38,7 +38,10 @@ fn a_target_has_settings_code_and_version_for_every_engine_mode() {
         let near = |key: &str, wanted: f64| {
             (row["sees"][key].as_f64().unwrap() / wanted - 1.0).abs() < 1e-7
         };
-        assert_eq!(reached, near("frequency_hz", 2.5) && near("damping_ratio", 0.3), "{row}");
+        let is_near = near("frequency_hz", 2.5) && near("damping_ratio", 0.3);
+        // The ratio of Bullet's older spring is a mean, as it is no linear map.
+        let is_linear = row["method"] != "engine-bullet-6dof";
+        assert_eq!(reached, is_near && is_linear, "{row}");
     }
     let box2d = &engines[0];
     assert_eq!((&box2d["method"], &box2d["substeps"]), (&"engine-box2d".into(), &4.into()));
