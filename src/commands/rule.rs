@@ -253,12 +253,13 @@ fn uneven_drive(motions: &[VisibleMotion]) -> Option<String> {
     })
 }
 
-/// Whether the motion by itself, or the drive, has a number to show.
+/// Whether the motion by itself has a number to show.
 fn is_visible(seen: &VisibleMotion) -> bool {
     seen.grows
         || [seen.hz, seen.overshoot, seen.halves_s, seen.settles_s].iter().any(Option::is_some)
 }
 
+/// Whether the drive has a number to show.
 fn is_driven(seen: &VisibleMotion) -> bool {
     seen.top_speed.or(seen.accelerates).is_some()
 }

@@ -110,7 +110,7 @@ pub(super) async fn follow_bounces(
     let lies = LIES * highest.max(1.0);
     let is_up = found.sinks_at_s.is_none() && highest_last > lies;
     found.never_rests = (rests && is_up).then_some(highest_last);
-    // On a wall that moves nothing is at rest.
+    // Nothing rests for ever on a wall that moves, or under a force that changes with time.
     if found.sinks_at_s.is_none() && !is_up && !truth.is_driven() {
         let body = &followed.body.stepper;
         let mut push = vec![0.0; body.q().len()];

@@ -126,6 +126,7 @@ impl<P: Clone, V: Vector> Bouncer<P, V> {
             let contact = contact.at(&body.system, t + h);
             contact.set_height(0.0, y);
             contact.set_speed(0.0, y);
+            // A body that lies has no flight, though its wall may swing.
             self.bounces.part();
             return Ok(());
         }

@@ -91,13 +91,12 @@ pub(super) fn cross<B: Body>(
     // The turned velocity may lie in another piece of the force law, as that of a drag by v |v|.
     let others = body.first_wall();
     piece.modes[..others].copy_from_slice(&body.piece(t, y).modes[..others]);
-    let mode = &mut piece.modes[switch];
     let (push, speed) = (contact.true_push(body, t, y), contact.speed(y));
     // A flight that is lower than the rounding of the place is none.
     let is_low = speed * speed < -push * 8.0 * f64::EPSILON * contact.wall.at.abs();
     if push < 0.0 && is_low || comes_to_rest(speed, push) {
         contact.set_speed(0.0, y);
-        *mode = RESTS;
+        piece.modes[switch] = RESTS;
     }
     true
 }
