@@ -39,13 +39,17 @@ impl Impacts {
     pub(super) fn tick(&mut self, studio: &Studio, is_end: bool) -> io::Result<()> {
         let (race, scene) = (studio.race(), studio.scene());
         let Self { rows, seen, earlier, written } = self;
-        let mut has_changed = vec![false; scene.bodies.len()];
+        let bodies = scene.bodies.len();
+        // After an input all count on from the same number, for none knows every impact before a rest.
+        let mut anew = vec![None; bodies];
         for (body, (since_s, [before, n])) in written.iter_mut().enumerate() {
             let [begun_s, _] =
                 race.truth().bodies()[body].stepper.true_bounce(0).unwrap_or([*since_s; 2]);
             if std::mem::replace(since_s, begun_s) != begun_s {
-                (*before, *n) = (*before + *n, 0);
-                has_changed[body] = true;
+                let of_lanes = seen.iter().zip(&*earlier).skip(body).step_by(bodies);
+                let counts = of_lanes.map(|((last, _), earlier)| earlier + last.impacts);
+                (*before, *n) = (counts.fold(*before + *n, u64::max), 0);
+                anew[body] = Some(*before);
             }
             while let Some([t, apex]) = true_impact(race, body, *n + 1) {
                 *n += 1;
@@ -57,13 +61,12 @@ impl Impacts {
                 rows.row(&[&start[..], &rest].concat())?;
             }
         }
-        let bodies = scene.bodies.len();
         for (lane, entrant) in race.entrants().iter().enumerate() {
             for (body, of_body) in entrant.lane.bodies().iter().enumerate() {
                 let Some(&now) = of_body.stepper.bounces() else { continue };
                 let cell = lane * bodies + body;
                 let (before, is_open) = &mut seen[cell];
-                let is_anew = has_changed[body] || now.impacts < before.impacts;
+                let is_anew = anew[body].is_some() || now.impacts < before.impacts;
                 let is_next = is_anew || now.impacts != before.impacts;
                 if *is_open && (is_next || is_end) {
                     let last = if is_next { *before } else { now };
@@ -83,7 +86,7 @@ impl Impacts {
                     *is_open = false;
                 }
                 if is_anew {
-                    earlier[cell] += before.impacts;
+                    earlier[cell] = anew[body].unwrap_or(earlier[cell] + before.impacts);
                 }
                 *is_open |= now.impacts > if is_anew { 0 } else { before.impacts };
                 *before = now;

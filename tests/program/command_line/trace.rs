@@ -133,6 +133,26 @@ fn impacts_are_numbered_through_a_kick() {
 }
 
 #[test]
+fn impacts_after_a_kick_out_of_rest_have_the_numbers_of_the_truth() {
+    let folder = tempfile::tempdir().unwrap();
+    let ball = "title = 'x'\ntick_hz = 60\nseconds = 8\n[[ball]]\nheight_m = 1\nrestitution = 0.5\n\
+                [[command]]\nat_s = 4.0\nkick = 1\n";
+    fs::write(folder.path().join("ball.toml"), ball).unwrap();
+    let asked = "trace --scene ball.toml --method rk4 --method semi-implicit-euler --impacts";
+    let csv = String::from_utf8(run_in(folder.path(), asked).stdout).unwrap();
+    let first_after = |lane: &str| -> (u64, f64) {
+        let rows = rows(&csv).into_iter().filter(|row| row[1] == lane);
+        rows.map(|row| (row[0].parse().unwrap(), row[4].parse().unwrap()))
+            .find(|(_, at_s)| *at_s > 4.0)
+            .unwrap()
+    };
+    let [truth, rk4, euler] = ["0", "1", "2"].map(first_after);
+    assert_eq!((rk4.0, euler.0), (truth.0, truth.0), "{csv}");
+    // The kick lifts the ball at once.
+    assert!((truth.1 - 5.0).abs() < 1e-9 && (rk4.1 - 5.0).abs() < 1e-9, "{csv}");
+}
+
+#[test]
 fn a_chain_has_a_row_for_each_of_its_masses() {
     let csv = stdout_of("trace --scene chain --method rk4 --seconds 0");
     let names: Vec<_> = rows(&csv).iter().map(|row| row[5].to_owned()).collect();
