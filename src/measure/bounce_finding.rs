@@ -33,16 +33,20 @@ pub struct BounceFinding {
     /// Where no flight is long enough to compare, the largest difference of the height, in parts of the highest true
     /// one, and its time (s).
     pub gap: Option<(f64, f64)>,
+    /// Where no bounce is compared, the largest depth below the wall at a tick, in parts of the largest height and in
+    /// metres.
+    pub depth: Option<[f64; 2]>,
     /// Whether a rule after the step met the wall at its ticks only, so that it had nothing to get wrong.
     pub is_luck: bool,
 }
 
 impl BounceFinding {
-    /// Returns the largest error of a height or a landing, in parts of the flight.
+    /// Returns the largest error of a height, a landing or a depth, in parts of the flight.
     pub fn error(&self) -> f64 {
         let height = self.height.map_or(0.0, |(_, part)| part.abs());
+        let landing = self.landing.map_or(0.0, |(_, part, _)| part.abs());
         let gap = self.gap.map_or(0.0, |(part, _)| part);
-        height.max(self.landing.map_or(0.0, |(_, part, _)| part.abs())).max(gap)
+        height.max(landing).max(gap).max(self.depth.map_or(0.0, |[part, _]| part))
     }
 
     /// Whether nothing of the run could be compared.
@@ -74,26 +78,40 @@ impl BounceFinding {
     }
 
     pub(super) fn outcome(&self) -> Outcome {
-        let is_high = self.height.is_some_and(|(_, part)| part > 0.0);
+        // A landing may be late, and later each time, while each flight has its height.
+        let height = self.wrong_height().filter(|_| self.drifts);
         match self.error() {
             _ if self.sinks_at_s.is_some() => Outcome::DiesAway,
             error if self.never_rests.is_none() && error <= TOLERANCE => Outcome::Accurate,
             error if self.never_rests.is_none() && error <= VISIBLE => Outcome::LooksRight,
-            _ if self.drifts && is_high => Outcome::Grows,
-            _ if self.drifts && self.height.is_some() => Outcome::DiesAway,
-            _ => Outcome::Bounded,
+            _ => match height {
+                Some((_, part)) if part > 0.0 => Outcome::Grows,
+                Some(_) => Outcome::DiesAway,
+                None => Outcome::Bounded,
+            },
         }
+    }
+
+    /// Returns the flight whose height is farthest off, with the error in parts of its height, if that matters.
+    fn wrong_height(&self) -> Option<(u64, f64)> {
+        self.height.filter(|(_, part)| part.abs() > TOLERANCE)
+    }
+
+    /// Returns the depth in metres, if that matters.
+    fn wrong_depth(&self) -> Option<f64> {
+        self.depth.filter(|[part, _]| *part > TOLERANCE).map(|[_, depth]| depth)
     }
 
     /// Returns the quantity that the words are about, its value and its unit.
     pub(super) fn number(&self) -> (&'static str, f64, &'static str) {
-        let height = self.height.filter(|(_, part)| part.abs() > TOLERANCE);
+        let height = self.wrong_height();
         match (self.sinks_at_s, height, self.never_rests, self.landing) {
             _ if let Some(speed) = self.falls_through => ("speed at the floor", speed, "m/s"),
             (Some(at_s), ..) => ("sinks at", at_s, "s"),
             _ if let Some(gain) = self.gain => ("gain a bounce", gain, "m"),
             (_, Some((_, part)), ..) => ("height error", 100.0 * part, "%"),
             (_, _, Some(height), _) => ("height that stays", height, "m"),
+            _ if let Some(depth) = self.wrong_depth() => ("depth", depth, "m"),
             (.., Some((_, _, late_s))) => ("delay", late_s, "s"),
             _ if self.gap.is_some() => ("largest error", 100.0 * self.error(), "%"),
             _ => ("height error", 0.0, "%"),
@@ -121,7 +139,7 @@ impl BounceFinding {
 
 impl fmt::Display for BounceFinding {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let height = self.height.filter(|(_, part)| part.abs() > TOLERANCE);
+        let height = self.wrong_height();
         match (self.sinks_at_s, height, self.never_rests, self.landing) {
             _ if let Some(speed) = self.falls_through => {
                 write!(f, "falls through at {} m/s", significant(speed, 2))?;
@@ -141,6 +159,9 @@ impl fmt::Display for BounceFinding {
             }
             (_, _, Some(height), _) => {
                 write!(f, "never rests: {} mm for ever", significant(1e3 * height, 2))?;
+            }
+            _ if let Some(depth) = self.wrong_depth() => {
+                write!(f, "sinks {} mm into the floor", significant(1e3 * depth, 2))?;
             }
             (.., Some((after, part, late_s))) if part.abs() > TOLERANCE => {
                 let way = if late_s > 0.0 { "late" } else { "early" };

@@ -55,7 +55,7 @@ pub(super) async fn follow_bounces(
     let mut followed = truth.follow(spec.solver(), spec.substeps, tick_hz).with_max_work(max_work);
     let (mut run, mut seen) = (BounceRun::default(), Vec::new());
     let (mut below_since, mut highest, mut highest_last) = (None, 0.0_f64, 0.0_f64);
-    let mut up_until_s = 0.0;
+    let (mut up_until_s, mut deepest) = (0.0, 0.0_f64);
     let mut heights = vec![followed.body.stepper.q()[0]];
     let [sunk_s, rest_s] = [SUNK_S, AT_REST_S].map(|most| most.min(AT_END * until_s));
     let slop = if spec.method.bounce().is_some() { SLOP } else { 0.0 };
@@ -71,6 +71,7 @@ pub(super) async fn follow_bounces(
         if t + rest_s > until_s {
             highest_last = highest_last.max(y);
         }
+        deepest = deepest.max(-slop - y);
         let is_below = y < -slop && !now.speeds[1].is_nan();
         below_since = is_below.then(|| below_since.unwrap_or((t, now.impacts, speed)));
         if y > LIES * highest.max(1.0) {
@@ -91,7 +92,8 @@ pub(super) async fn follow_bounces(
     let has_own_time = spec.impact.finds_the_time();
     let mut impacts = truth.impacts.lock().expect("no thread panics with it");
     let exact = impacts.get_or_insert_with(|| truth.start(Solver::Truth));
-    found.compare(&**exact, &seen, h, if has_own_time { 0.0 } else { h });
+    let has_bounced = found.compare(&**exact, &seen, h, if has_own_time { 0.0 } else { h });
+    found.depth = (!has_bounced && deepest > 0.0).then_some([deepest / highest, deepest]);
     found.is_luck &= !has_own_time;
     let sunk = below_since.filter(|(since, ..)| seconds - since >= sunk_s);
     found.sinks_at_s = sunk.map(|(since, ..)| since);
@@ -180,7 +182,14 @@ impl BounceFinding {
 
     /// Compares records of a run, each with whether it has a new peak and with the speed then, with the truth from its
     /// start, at ticks of `h` (s). A rule that handles an impact at the end of a tick may be late by up to `waits` (s).
-    fn compare(&mut self, exact: &dyn Stepper, seen: &[(Bounces, bool, f64)], h: f64, waits: f64) {
+    /// Returns whether the run has a flight after an impact that was compared.
+    fn compare(
+        &mut self,
+        exact: &dyn Stepper,
+        seen: &[(Bounces, bool, f64)],
+        h: f64,
+        waits: f64,
+    ) -> bool {
         let is_long =
             |impacts| flight_s(exact, impacts).filter(|flight_s| *flight_s >= LEAST_TICKS * h);
         let (mut heights, mut landings) = (Vec::new(), 0);
@@ -232,5 +241,6 @@ impl BounceFinding {
             |part: &[(u64, f64)]| part.iter().map(|it| it.1).sum::<f64>() / part.len() as f64;
         self.drifts = heights.len() > 2
             && mean(&heights[heights.len() - third..]).abs() > mean(&heights[..third]).abs();
+        landings > 1 || heights.iter().any(|(after, _)| *after > 0)
     }
 }

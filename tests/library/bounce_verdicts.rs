@@ -169,3 +169,33 @@ fn a_ball_that_sticks_to_a_swinging_floor_rests_neither_early_nor_late() {
     let found = verdict_on(&stuck, (60, 10.0), "rk4", "locate");
     assert!(found.contains("bounces right"), "{found}");
 }
+
+#[test]
+fn a_ball_that_keeps_its_height_and_lands_late_does_not_grow() {
+    let ball = |height: f64| format!("[[ball]]\nheight_m = {height:?}\nrestitution = 1.0\n");
+    for (height, method, rule) in [
+        (0.95, "velocity-verlet", "energy"),
+        (0.98, "velocity-verlet", "energy"),
+        (1.0, "rk4", "energy"),
+        (1.1, "velocity-verlet", "energy"),
+        (0.98, "semi-implicit-euler", "before-tick"),
+    ] {
+        for seconds in [10.0, 20.0, 40.0] {
+            let found = verdict_on(&ball(height), (60, seconds), method, rule);
+            let is_late =
+                ["looks right · lands", "inaccurate · lands"].map(|it| found.starts_with(it));
+            assert!(is_late.contains(&true), "{height}, {method}, {rule}, {seconds} s: {found}");
+        }
+    }
+}
+
+#[test]
+fn a_soft_floor_without_a_bounce_is_judged_by_its_depth() {
+    for (hz, restitution, wanted) in
+        [(60, 0.0, "sinks 61 mm into the floor"), (15, 0.0, "sinks"), (60, 0.8, "bounces")]
+    {
+        let ball = format!("[[ball]]\nheight_m = 1.0\nrestitution = {restitution:?}\n");
+        let found = verdict_on(&ball, (hz, 6.0), "rk4", "penalty");
+        assert!(!found.starts_with("accurate") && found.contains(wanted), "{hz}: {found}");
+    }
+}
