@@ -35,8 +35,8 @@ pub(super) struct Bouncer<P, V> {
     engine: Option<EngineBounce>,
     kept: ([f64; 2], bool),
     bounces: Bounces,
-    /// Whether the body came to rest at its last impact within a step, and has not left the wall.
-    has_rested: bool,
+    /// The wall on which the body came to rest at an impact within a step, and which it has not left.
+    rests_on: Option<usize>,
     /// The length of the last tick in seconds.
     last_h: f64,
     from: State<V>,
@@ -56,8 +56,8 @@ impl<P: Clone, V: Vector> Bouncer<P, V> {
             _ => solver.method().and_then(Method::bounce),
         };
         let kept = Default::default();
-        let has_rested = false;
-        Self { inner, probe, rule, engine, kept, bounces, has_rested, last_h: 0.0, from, trial, a }
+        let rests_on = None;
+        Self { inner, probe, rule, engine, kept, bounces, rests_on, last_h: 0.0, from, trial, a }
     }
 
     /// Makes one tick of `n` substeps by an engine's rule for the wall that is nearer.
@@ -114,9 +114,8 @@ impl<P: Clone, V: Vector> Bouncer<P, V> {
         // One copy of both would wait until both have been written.
         self.from.q.assign(&y.q);
         let is_within = matches!(self.rule, Rule::Within(_) | Rule::Swept);
-        let is_at_rest = |it: Contact| it.height(y) == 0.0 && it.speed(y) == 0.0;
         if is_within
-            && Contact::all(&body.system, t).any(is_at_rest)
+            && Contact::all(&body.system, t).any(|it| it.is_at_rest(y))
             && let Some(contact) = self.rest(body, t, y)
         {
             // Other coordinates go on.
@@ -226,8 +225,7 @@ impl<P: Clone, V: Vector> Bouncer<P, V> {
         t: f64,
         y: &State<V>,
     ) -> Option<Contact> {
-        let is_at_rest = |it: &Contact| it.height(y) == 0.0 && it.speed(y) == 0.0;
-        let contact = Contact::all(&body.system, t).find(is_at_rest)?;
+        let contact = Contact::all(&body.system, t).find(|it| it.is_at_rest(y))?;
         (contact.push(body, t, y, &mut self.a) < 0.0).then_some(contact)
     }
 
@@ -269,13 +267,13 @@ impl<P: Clone, V: Vector> Bouncer<P, V> {
             let push = contact.push(body, hit_at, y, &mut self.a);
             let rests = comes_to_rest(speed, push) || push < 0.0 && impacts == MAX_IMPACTS;
             // On a wall that moves, a body at rest meets it again by the rounding of the time.
-            if self.has_rested {
+            if self.rests_on == Some(end.index) {
                 self.inner.restart(hit_at, false, &body.system, y);
             } else {
                 self.land(body, hit_at, y, [before, speed]);
             }
             if rests {
-                self.has_rested = true;
+                self.rests_on = Some(end.index);
                 self.bounces.part();
                 if y.q.components().len() > 1 {
                     self.inner.step(body, hit_at, rest, 1, y)?;
@@ -429,7 +427,8 @@ where
         if let Some(contact) = Contact::all(&body.system, t + h).next() {
             self.bounces.coordinate = contact.wall.coordinate;
             self.add_height(&body.system, contact, y);
-            self.has_rested &= self.bounces.distance < LIFTED;
+            let lies = |it: &Contact| Some(it.index) == self.rests_on && it.height(y) < LIFTED;
+            self.rests_on = Contact::all(&body.system, t + h).find(lies).map(|it| it.index);
         }
         Ok(())
     }
@@ -438,7 +437,7 @@ where
         let is_changed = self.inner.jump(t, change, body, state);
         if is_changed {
             self.bounces.restart();
-            (self.kept, self.has_rested) = Default::default();
+            (self.kept, self.rests_on) = Default::default();
         }
         is_changed
     }

@@ -37,6 +37,10 @@ impl Contact {
         self.wall.speed(y.v.components())
     }
 
+    pub(super) fn is_at_rest<V: Vector>(self, y: &State<V>) -> bool {
+        self.height(y) == 0.0 && self.speed(y) == 0.0
+    }
+
     pub(super) fn set_height<V: Vector>(self, height: f64, y: &mut State<V>) {
         y.q.components_mut()[self.wall.coordinate] = self.wall.at + self.wall.side * height;
     }

@@ -226,6 +226,17 @@ fn a_floor_that_sinks_is_not_sunk_through_and_one_that_swings_has_true_apexes() 
 }
 
 #[test]
+fn a_body_that_sticks_to_a_second_wall_that_swings_meets_it_no_more() {
+    let law = "[[law]]\n[law.coordinates.y]\nstart = 0.3\nacceleration = '-9.81'\n\
+               [law.events.far]\nwhen = 'y + 5'\nthen = { vy = '-0.3*vy' }\n\
+               [law.events.near]\nwhen = 'y - 0.01*sin(12*t)'\n\
+               then = { vy = '0.12*cos(12*t) - 0.3*(vy - 0.12*cos(12*t))' }\n";
+    let end = after(law, under("rk4", "locate"), 10.0, 60);
+    let impacts = end.bounces().unwrap().impacts;
+    assert!((4..30).contains(&impacts), "{impacts}");
+}
+
+#[test]
 fn a_law_with_a_floor_is_framed_by_its_bounces() {
     let scene = parse(&falling("start = 1", "-g", 0.8, "y")).unwrap();
     let lane = Lane::new(&scene, under("velocity-verlet", "locate"), 1);
