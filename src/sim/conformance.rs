@@ -133,7 +133,8 @@ pub fn measured(card: &'static Method) -> (Method, String) {
     let limits = limits(card).unwrap_or([Some(0.0); 4]).map(|limit| limit.map(rounded));
     let [undamped, damped @ ..] = limits;
     let about = format!(
-        "{}; {}; {}",
+        "{}{}; {}; {}",
+        if card.default_substeps > 1 { "with 1 substep " } else { "" },
         order::in_words(&orders),
         similarity::energy(card),
         similarity::nearest(card, evaluations)

@@ -286,6 +286,14 @@ fn a_slip_in_rk4_is_reported_with_its_order_and_wrong_coefficient() {
 }
 
 #[test]
+fn a_force_held_over_substeps_has_the_order_of_a_step_with_one() {
+    let held = METHODS.iter().find(|method| method.id == "held-force").unwrap();
+    let card = own_method("held-lines", held.code).unwrap();
+    assert_eq!([card.order, card.order_with_drag, card.default_substeps], [1, 1, 4]);
+    assert!(card.about.starts_with("with 1 substep order 1.00; "), "{}", card.about);
+}
+
+#[test]
 fn the_time_of_a_call_follows_from_its_place_in_the_step() {
     let parts = |text: &str| -> Vec<f64> {
         StepText::read(text).unwrap().calls().iter().map(|call| call.part).collect()
