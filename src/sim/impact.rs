@@ -198,14 +198,14 @@ pub static IMPACTS: &[Impact] = impacts! {
     "swept-step" Some(0.5), Rule::Within(Locating::SpeedAtEnd),
         "the straight line gives the time of impact, the end of the step the speed; the method steps the rest";
     "penalty" None, Rule::Penalty,
-        "no impact: a damped spring of 4.77 Hz pushes out of the floor";
+        "no impact: a damped spring, of 4.77 Hz or of the ball's `penalty_hz`, pushes out of the floor";
     "none" None, Rule::OwnLines,
         "the lines of the method turn the ball themselves; for methods of your own with such a line, and no others";
     "engine" None, Rule::Engine,
         "the engine's own rule, with its slop and threshold; for lanes of Chipmunk, Jolt, Box2D, Rapier, pybullet, MuJoCo and \
          cannon-es";
     "engine-p2" None, Rule::EngineP2,
-        "p2-es's own rule, for the lane of cannon-es, which steps as p2-es does";
+        "p2-es's own rule, for the lane of cannon-es, which steps as p2-es does; of a ball of 1 kg, for a heavier one loses more";
 };
 
 /// Returns the rule with this id.
