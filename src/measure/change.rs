@@ -75,7 +75,10 @@ pub(super) fn bounded(truth: &BodyTruth, run: &JudgedRun) -> Option<bool> {
         return None;
     }
     let [_, early, _, late] = run.long_quarters.map(amplitude);
-    let grows = truth.energy_scale.is_some() && late / early > 1.0 + GROWTH_SEEN;
+    // The mean of a quarter depends on where it begins in a turn, unless it has many.
+    let has_many_turns = truth.swing.as_ref().is_some_and(Swing::has_a_frequency);
+    let is_trend = has_many_turns || run.long_quarters.is_sorted();
+    let grows = truth.energy_scale.is_some() && is_trend && late / early > 1.0 + GROWTH_SEEN;
     Some(!grows && steadily_doubles_in_s(truth, run).is_none())
 }
 
