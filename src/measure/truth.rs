@@ -251,8 +251,8 @@ impl BodyTruth {
         }
         let returns = self.swing.as_ref().is_some_and(|swing| swing.crossings.len() > 2);
         let mut first_swings_s = self.first_swings_of_modes_s();
-        if !self.is_oscillator() && !returns && !self.fails_at_start {
-            // Other motions are followed beyond the horizon, as far as the truth reaches.
+        if !returns && !self.fails_at_start {
+            // A motion that does not return is followed beyond the horizon, as far as the truth reaches.
             let is_close = self.truth == Truth::Reference && self.failure.is_none();
             let close = match is_close {
                 true => self.long_run(close_solver(), most).await.ok(),

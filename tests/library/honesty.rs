@@ -425,6 +425,18 @@ fn an_ellipse_that_turns_does_not_grow() {
 }
 
 #[test]
+fn a_spring_that_is_followed_for_a_third_of_a_swing_grows_only_if_its_method_makes_it() {
+    let text = "title = 't'\ntick_hz = 60\nseconds = 6\n[[spring]]\nmass_kg = 39.4\n\
+                stiffness_n_per_m = 4.68\nx0_m = 0.843\nv0_m_per_s = -0.374\n";
+    let scene = Scene::parse("t", text).unwrap();
+    for (id, wanted) in [("bogacki-shampine-32", true), ("rk4", true), ("explicit-euler", false)] {
+        let spec = LaneSpec::plain(regatta::sim::integrators::method(id).unwrap());
+        let found = Judge::new(&scene).verdict(spec, 60);
+        assert_eq!(found.long_term.is_bounded, Some(wanted), "{id}: {found}");
+    }
+}
+
+#[test]
 fn verdicts_on_random_scenes_are_true() {
     let mut dice = Dice::new(0);
     let (mut unknown, mut false_ones, total) = (Vec::new(), Vec::new(), 100);
