@@ -86,22 +86,32 @@ async function differences(page, still) {
 }
 
 const tick = (page) => page.evaluate(async () => (await regatta).tick());
-const frames = (page) => page.evaluate(async () => (await regatta).frames());
+/** Ticks, frames and seconds, all at one moment, for each question waits for a frame. */
+const moment = (page) =>
+    page.evaluate(async () => {
+        const run = await regatta;
+        return [run.tick(), run.frames(), performance.now() / 1000];
+    });
 
 /** That ticks pass as in the world, and a stage on another's page waits until it is told. */
 async function holdTime() {
-    const page = await opened("");
+    let page = await opened("");
     const firstFrameMs = await page.evaluate(() => document.documentElement.dataset.firstFrameMs);
     const seen = await colours(page);
     hold(`the stage is drawn: ${seen} colours`, seen > 100);
-    // Where something else keeps the machine busy, ticks are dropped for a while.
     let [rate, frameRate] = [0, 0];
     for (let tries = 0; tries < 5 && !(rate > 59 && rate < 61 && frameRate > 3); tries++) {
+        if (tries > 0) {
+            // Where something else keeps the machine busy, ticks are dropped for a while; and after 20 s the run ends.
+            await page.close();
+            page = await opened("");
+        }
         await seconds(2);
-        const [from, framesFrom, began] = [await tick(page), await frames(page), performance.now()];
-        await seconds(5);
-        const passed = (performance.now() - began) / 1000;
-        [rate, frameRate] = [((await tick(page)) - from) / passed, ((await frames(page)) - framesFrom) / passed];
+        const from = await moment(page);
+        await seconds(8);
+        const until = await moment(page);
+        const [ticks, drawn, passed] = until.map((it, i) => it - from[i]);
+        [rate, frameRate] = [ticks / passed, drawn / passed];
     }
     hold(`ticks a second: ${rate}`, rate > 59 && rate < 61);
     hold(`frames a second: ${frameRate}`, frameRate > 3);
