@@ -8,11 +8,12 @@ use std::sync::Arc;
 use super::energy::Energy;
 use super::pace::Pace;
 use super::swings::Swings;
-use super::truth::{BodyTruth, FollowedBody, LONG_RUN, TruthSeries, ticks};
+use super::truth::{BodyTruth, FollowedBody, LONG_RUN, MovedMode, Swing, TruthSeries, ticks};
 use super::verdict::RunFailure;
 use crate::run::race::{Chase, StopReason};
 pub use crate::scene::custom::MAX_WORK;
 use crate::sim::integrators::StepFailure;
+use crate::sim::stability::{Tick, unforced};
 use crate::sim::{Stepper, TickRate};
 
 /// A swing has grown if it reaches this multiple of the true amplitude, and has died away if it falls below the
@@ -22,6 +23,9 @@ const TWICE: f64 = 2.0;
 /// Multiple of the long run over which a swing is followed that is [losing](Energy::is_losing) at the end of the long
 /// run. A shrinking orbit may still be ejected.
 const FOLLOWED_ON: u64 = 100;
+
+/// Periods for which a swing that has halved is still followed, if it must come to rest.
+const FOLLOWED_PERIODS: f64 = 5.0;
 
 /// Fraction of the true swing below which a swing has come to rest.
 const AT_REST: f64 = 0.02;
@@ -77,6 +81,8 @@ pub(super) struct JudgedRun {
     /// Whether the swing was losing and was followed beyond the long run, and whether it came to rest there.
     pub(super) is_losing: bool,
     pub(super) has_come_to_rest: bool,
+    /// The time in seconds after which a swing that has halved must come to rest; `None` if it need not.
+    pub(super) rests_after_s: Option<f64>,
     /// Change of the energy at the last tick within the horizon, in units of the largest true kinetic energy.
     pub(super) energy_change: Option<f64>,
     /// Mean changes of the energy in the quarters of the horizon and of the long run, in units of the largest true
@@ -138,12 +144,27 @@ pub(super) async fn follow(
         measured.run.is_losing = measured.energy.is_losing() && truth.swing.is_some();
         let stepper = &*followed.body.stepper;
         if measured.run.is_losing && measured.run.is_undecided(stepper, truth) {
+            let period_s = truth.swing.as_ref().map(Swing::period);
+            measured.run.rests_after_s = period_s
+                .filter(|_| loses_when_small(truth, Pace { spec, tick_hz }))
+                .map(|period_s| FOLLOWED_PERIODS * period_s);
             let see = |body: &FollowedBody, tick| measured.add(truth, body, tick);
             stop = truth.run_until(&mut followed, FOLLOWED_ON * end, see).await;
         }
     }
     measured.run.swings = followed.body.swings.take();
     measured.complete(stop, followed.ticks(), followed.t())
+}
+
+/// Whether a method, which may choose its steps, makes every small swing of a linear body smaller.
+fn loses_when_small(truth: &BodyTruth, Pace { spec, tick_hz }: Pace) -> bool {
+    let free = unforced(&*truth.with_last_parameters());
+    let tick = Tick { t: 0.0, h: tick_hz.step_s(), substeps: spec.substeps };
+    let loses = |moved: &MovedMode| {
+        let found = moved.mode.stability_of_small(&*free, spec.solver(), tick);
+        found.is_ok_and(|found| found.is_bounded() && found.loss_per_s > 0.0)
+    };
+    truth.is_oscillator() && truth.modes.iter().flatten().all(loses)
 }
 
 /// Measurements of a run in progress.
@@ -308,7 +329,9 @@ impl JudgedRun {
     fn rests(&mut self, stepper: &dyn Stepper, truth: &BodyTruth) -> bool {
         let parts =
             [truth.reach.of_coordinates(stepper.q()), truth.reach.of_velocities(stepper.v())];
-        self.has_come_to_rest = parts.iter().all(|&part| part <= AT_REST);
+        let halved_s = self.halved_at.map(|t| self.followed_s - t);
+        let must_rest = halved_s.zip(self.rests_after_s).is_some_and(|(s, after_s)| s >= after_s);
+        self.has_come_to_rest = must_rest || parts.iter().all(|&part| part <= AT_REST);
         self.has_come_to_rest
     }
 }
