@@ -56,6 +56,13 @@ pub fn shown_cloud(studio: &Studio) -> Option<&FoundCloud> {
 const START_NS: i64 = 1_000_000_000;
 const MAX_WAIT_NS: i64 = 3_000_000_000;
 
+/// Frees the clouds if no cloud is needed now.
+pub(super) fn free_unshown_cloud(studio: &mut Studio) {
+    if studio.viewer.cloud.is_some() && cloud_request(studio).is_none() {
+        studio.viewer.cloud = None;
+    }
+}
+
 /// Whether time waits at the start of a scene that opens with clouds, so that a person sees the clouds whole before
 /// they move. Adds this frame to the time waited.
 pub(super) fn wait_for_cloud(studio: &mut Studio, frame_ns: i64) -> bool {

@@ -47,7 +47,7 @@ use crate::run::{MenuIndex, Run, Session, StartSettings};
 use crate::scene::{LaneSpec, Scene};
 use crate::sim::Clock;
 use crate::sim::integrators::Method;
-use clouding::wait_for_cloud;
+use clouding::{free_unshown_cloud, wait_for_cloud};
 use driving::{advance, make_tick};
 use looping::{OpenLab, title_of_loops};
 
@@ -302,6 +302,7 @@ impl Studio {
         is_time_left: &mut dyn FnMut() -> bool,
         observer: &mut dyn Observer,
     ) -> Due {
+        free_unshown_cloud(self);
         let waits_for_cloud = wait_for_cloud(self, frame_ns);
         if !self.deck.time_runs() {
             self.viewer.live.jump();

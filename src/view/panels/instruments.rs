@@ -15,7 +15,7 @@ use crate::run::METRICS;
 use crate::run::past::Quantity;
 use crate::studio::{
     Command, INSTRUMENTS, Instrument, InstrumentCard, InstrumentGroup, StageCommand, Studio,
-    ViewCommand,
+    ViewCommand, cloud_request,
 };
 use crate::theme::{TYPE, palette, strong_font};
 
@@ -63,6 +63,13 @@ pub(super) fn min_height(instrument: Instrument) -> f32 {
         | Instrument::Cloud
         | Instrument::Advice => 260.0,
         Instrument::Motion | Instrument::Error | Instrument::Cost => 200.0,
+    }
+}
+
+/// Frees the pictures of an instrument that is no longer shown.
+pub(super) fn free_unshown(ui: &Ui, studio: &Studio) {
+    if cloud_request(studio).is_none() {
+        cloud::free_images(ui);
     }
 }
 

@@ -89,6 +89,7 @@ fn frame_rate(studio: &Studio) -> Option<String> {
 
 /// Shows all panels. Returns the commands and the rectangle left for the stage, in points.
 pub(super) fn show(ui: &mut Ui, studio: &Studio) -> (Vec<Command>, Rect) {
+    instruments::free_unshown(ui, studio);
     let mut commands = Vec::new();
     let whole = ui.max_rect();
     let size = whole.size();

@@ -456,6 +456,11 @@ struct CachedImage {
     texture: TextureHandle,
 }
 
+/// Frees all images.
+pub(super) fn free_images(ui: &Ui) {
+    ui.data_mut(|data| data.remove_by_type::<CachedImage>());
+}
+
 /// Returns the image of a density. The cached image is replaced if the density or its style has changed.
 fn cached_image(ui: &Ui, place: usize, density: &Arc<Density>, style: Style) -> TextureHandle {
     let id = egui::Id::unique(("image of a cloud", place));

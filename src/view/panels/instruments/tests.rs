@@ -12,6 +12,7 @@ use crate::panels;
 use crate::scene::{Action, SCENES, Scene};
 use crate::studio::{
     BOOK_FIGURES, RunCommand, StageCommand, ViewCommand, complete_clouds, open_file, reload_file,
+    shown_cloud,
 };
 use crate::tests::testing::{TestWindow, button};
 
@@ -449,6 +450,25 @@ fn the_cloud_reports_its_area_or_why_there_is_no_cloud() {
     assert!(table.contains(",area / start,,implicit-euler,1,0.") && table.contains(",exact,1,"));
     assert!(svg(&studio).unwrap().contains("<polyline"));
     assert!(said(&lab_of("orbit"), "satellite has 2"));
+}
+
+#[test]
+fn clouds_and_their_images_are_freed_with_their_instrument() {
+    let mut studio = Studio::new(Scene::built_in("liouville").unwrap());
+    let mut window = TestWindow::new(vec2(1280.0, 720.0));
+    let mut images_under = |studio: &mut Studio, instrument| {
+        studio.apply(StageCommand::Instrument(instrument));
+        studio.advance(0);
+        let is_there = shown_cloud(studio).is_some();
+        complete_clouds(studio, &mut CloudWorker::default(), || false);
+        window.panels(studio, Vec::new());
+        (window.context.tex_manager().read().num_allocated(), is_there)
+    };
+    let [before, with, after, again] =
+        [Instrument::Motion, Instrument::Cloud, Instrument::Motion, Instrument::Cloud]
+            .map(|instrument| images_under(&mut studio, instrument));
+    assert!(with.0 > before.0 && again.0 == with.0 && !again.1, "{before:?}, {with:?}, {again:?}");
+    assert_eq!(after, before);
 }
 
 #[test]
