@@ -334,7 +334,8 @@ fn outcome(piece: &Piece, whole: &Rule) -> String {
     match (piece.course(), seen) {
         (Some(Course::Stops), _) => {
             let reached = piece.reached_s(whole).map(number);
-            let reached = reached.map(|s| format!("; from 1 it is there after {s} s"));
+            let from = if piece.coasts() { "a speed of 1" } else { "1" };
+            let reached = reached.map(|s| format!("; from {from} it is there after {s} s"));
             format!("it stops at once{}", reached.unwrap_or_default())
         }
         (Some(Course::Stays), _) => "it stays where it is".into(),

@@ -66,10 +66,13 @@ const STEP_NAMES: [&str; 13] = [
     "elapsed",
 ];
 
-/// Names that games use for `x`, `v` and `target`, valid unless the text uses the original name.
+/// The place of another body, which the lines draw theirs to. No person writes this name.
+const OTHER_PLACE: &str = "__";
+
+/// Names that games use for `x`, `v` and `target`, valid unless the text uses the original name, or one before it here.
 const OTHER_NAMES: [(usize, &[&str]); 3] = [
     (X, &["pos", "position", "value", "current"]),
-    (V, &["vel", "velocity", "speed"]),
+    (V, &["velocity", "vel", "speed", "vx", "velX", "vel_x", "hsp", "hspeed", "vspeed"]),
     (
         TARGET,
         &[
@@ -81,6 +84,7 @@ const OTHER_NAMES: [(usize, &[&str]); 3] = [
             "target_position",
             "targetX",
             "target_x",
+            OTHER_PLACE,
         ],
     ),
 ];

@@ -86,7 +86,12 @@ pub(super) fn tokens(text: &str, is_step: bool) -> Parsed<Vec<(Token, Range<usiz
             (Token::Symbol(symbol), symbol.len())
         } else {
             let what = format!("`{}` cannot be in an expression", first.escape_debug());
-            return fault(at..at + first.len_utf8(), what, "remove it");
+            let remedy = match first {
+                '?' => "write `if(c, a, b)` for `c ? a : b`",
+                ':' => "write the value as the first argument: `lerp(x, target, t)`",
+                _ => "remove it",
+            };
+            return fault(at..at + first.len_utf8(), what, remedy);
         };
         tokens.push((token, at..at + length));
         at += length;

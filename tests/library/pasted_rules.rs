@@ -11,7 +11,7 @@ use regatta::tools::source_code::Language;
 use crate::rules::{FPS, START, TARGET, code, frames, is_near};
 
 /// Lines as they are pasted, each with the plain lines that it means.
-const PASTED: [(&str, &str); 31] = [
+const PASTED: [(&str, &str); 36] = [
     (
         "position = position.lerp(target, 1 - exp(-8 * delta))",
         "x = lerp(x, target, 1 - exp(-8 * dt))",
@@ -91,6 +91,14 @@ const PASTED: [(&str, &str); 31] = [
     ("v = min(v + 10 * dt, math.huge); x += v * dt", "v += 10 * dt; x += v * dt"),
     ("v = v.clamp(-f32::INFINITY, float.PositiveInfinity) + Vector3.zero; x += v", "x += v"),
     ("let power = 0.5; x += (target - x) * power", "x += (target - x) * 0.5"),
+    ("camera.x += (player.x - camera.x) * 0.1", "x += (target - x) * 0.1"),
+    ("this.x += (mouse.x - this.x) * 0.1", "x += (target - x) * 0.1"),
+    (
+        "transform.position = Vector3.Lerp(transform.position, player.transform.position, 0.1f)",
+        "x += (target - x) * 0.1",
+    ),
+    ("vx += 2000*dt; vx *= 0.92; x += vx*dt", "v += 2000 * dt; v *= 0.92; x += v * dt"),
+    ("-- follow the player\nx = x + (target - x) * 5 * dt -- smooth", "x += (target - x) * 5 * dt"),
 ];
 
 #[test]
@@ -170,6 +178,10 @@ fn a_rule_in_pieces_is_told_piece_by_piece() {
     assert!(is_near(seen.spring.unwrap().damping_ratio(), 0.372), "{seen:?}");
     assert_eq!(snap[1].course(), Some(Course::Stops));
     assert!(is_near(snap[1].reached_s(&Rule::read(text, FPS).unwrap()), 0.3));
+    let friction = "v = move_toward(v, 0, 5 * dt); x += v * dt";
+    let (stops, whole) = (&pieces(friction)[1], Rule::read(friction, FPS).unwrap());
+    assert!(stops.coasts() && !snap[1].coasts() && stops.course() == Some(Course::Stops));
+    assert!((0.199..0.217).contains(&stops.reached_s(&whole).unwrap()));
     let toward = pieces("x = move_toward(x, target, 3 * dt)");
     let Some(Course::Moves(speed)) =
         toward.iter().find_map(|piece| piece.course().filter(|it| matches!(it, Course::Moves(_))))

@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use super::statements::Statement;
-use super::{BUILT_IN, OTHER_NAMES, STEP_NAMES, TARGET, V, X};
+use super::{BUILT_IN, OTHER_NAMES, OTHER_PLACE, STEP_NAMES, TARGET, V, X};
 use crate::fault::{ExpressionFault, fault};
 use crate::function::Function;
 use crate::token::is_name_part;
@@ -13,6 +13,9 @@ const NAMESPACES: [&str; 9] = ["math", "std", "f32", "f64", "glm", "np", "numpy"
 /// Words before an argument that the call changes.
 const REFERENCES: [&str; 3] = ["ref", "out", "inout"];
 const SEPARATORS: [&str; 3] = [".", "::", "->"];
+/// Names of a body's own parts, which are no other body.
+const OWN_PARTS: [&str; 9] =
+    ["this", "self", "transform", "body", "rb", "rigidbody", "sprite", "node", "instance"];
 
 /// A component of a vector that a text reads or assigns, such as the `x` of `velocity.x`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -21,9 +24,76 @@ pub(super) struct Component {
     pub(super) letter: u8,
 }
 
+/// The bodies that a text names, by the names before those of their places and velocities.
+#[derive(Debug, Default)]
+struct Bodies {
+    /// Those that the lines move; the empty name is that of lines that name none.
+    own: Vec<String>,
+    /// The body to whose place the lines draw theirs, if it is the only other one, and no line names a target.
+    goal: Option<String>,
+}
+
+impl Bodies {
+    fn of(text: &[u8]) -> Self {
+        let (mut own, mut read, mut at) = (Vec::new(), Vec::new(), 0);
+        let (mut has_target, mut has_place) = (false, false);
+        while at < text.len() {
+            let byte = text[at];
+            if !is_name_part(byte) {
+                at += 1;
+                continue;
+            }
+            let parts = parts(text, at);
+            at = parts[parts.len() - 1].end;
+            if byte.is_ascii_digit() {
+                continue;
+            }
+            let name = |part: &Range<usize>| String::from_utf8_lossy(&text[part.clone()]).into();
+            let names: Vec<String> = parts.iter().map(name).collect();
+            let is_call = text[at..].trim_ascii_start().starts_with(b"(");
+            let values = &names[..names.len() - usize::from(is_call && names.len() > 1)];
+            has_target |= values.iter().any(|name| is_name_of(TARGET, name));
+            let (value, _) = meant(values);
+            let is_place = is_name_of(X, &values[value]);
+            if !is_place && !is_name_of(V, &values[value]) {
+                continue;
+            }
+            let owner = owner(&values[..value]);
+            let is_assigned = matches!(
+                text[at..].trim_ascii_start(),
+                [b'=', rest @ ..] | [b'+' | b'-' | b'*' | b'/', b'=', rest @ ..]
+                    if rest.first() != Some(&b'=')
+            );
+            if is_assigned {
+                own.push(owner);
+                has_place |= is_place;
+            } else if is_place {
+                read.push(owner);
+            }
+        }
+        let mut others = read.iter().filter(|owner| !own.contains(owner));
+        has_place |= read.iter().any(|owner| own.contains(owner));
+        let goal = others.next().filter(|first| others.all(|other| other == *first));
+        let goal = goal.filter(|_| has_place && !has_target).cloned();
+        Self { own, goal }
+    }
+
+    /// Whether the body of these names is another than those that the lines move.
+    fn is_other(&self, owner: &str) -> bool {
+        !owner.is_empty() && !self.own.is_empty() && !self.own.iter().any(|own| own == owner)
+    }
+}
+
+/// Returns the name of a body, without those of its parts.
+fn owner(names: &[String]) -> String {
+    let is_part = |name: &&String| OWN_PARTS.contains(&&*name.to_ascii_lowercase());
+    names.iter().filter(|name| !is_part(name)).map(String::as_str).collect::<Vec<_>>().join(".")
+}
+
 /// Blanks all but one name of each dotted name, so that no byte moves. Keeps the point before a method of a value.
 /// Returns the components of vectors.
 pub(super) fn reduce(text: &mut [u8]) -> Vec<Component> {
+    let bodies = Bodies::of(text);
     let (mut at, mut components) = (0, Vec::new());
     while at < text.len() {
         let before = text[..at].iter().rfind(|byte| !byte.is_ascii_whitespace());
@@ -48,7 +118,7 @@ pub(super) fn reduce(text: &mut [u8]) -> Vec<Component> {
                         text[word.clone()].fill(b' ');
                     }
                 } else {
-                    components.extend(reduce_path(text, &parts));
+                    components.extend(reduce_path(text, &parts, &bodies));
                 }
                 at = end;
                 continue;
@@ -78,7 +148,7 @@ fn parts(text: &[u8], mut at: usize) -> Vec<Range<usize>> {
     }
 }
 
-fn reduce_path(text: &mut [u8], parts: &[Range<usize>]) -> Option<Component> {
+fn reduce_path(text: &mut [u8], parts: &[Range<usize>], bodies: &Bodies) -> Option<Component> {
     let name = |part: &Range<usize>| String::from_utf8_lossy(&text[part.clone()]).into_owned();
     let names: Vec<String> = parts.iter().map(name).collect();
     let (first, last, end) = (&names[0], parts.len() - 1, parts[parts.len() - 1].end);
@@ -91,11 +161,18 @@ fn reduce_path(text: &mut [u8], parts: &[Range<usize>]) -> Option<Component> {
         STEP_NAMES.contains(&&*names[last]) && text[end + blanks..].starts_with(b"()");
     let mut component = None;
     let mut kept = vec![last];
+    let mut goal_at = None;
     if is_step_call {
         text[end + blanks..end + blanks + 2].fill(b' ');
     } else if !(is_namespace && is_call) {
         let values = &names[..parts.len() - usize::from(is_call)];
-        let (value, letter) = meant(values);
+        let (mut value, letter) = meant(values);
+        let of_body = owner(&values[..value]);
+        if is_name_of(X, &values[value]) && bodies.is_other(&of_body) {
+            // Without a place of their own the lines are not drawn to this one: it is a name without a value.
+            value -= 1;
+            goal_at = (bodies.goal.as_ref() == Some(&of_body)).then_some(value);
+        }
         component = letter.map(|letter| Component { at: parts[value].start, letter });
         kept = if is_call { vec![value, last] } else { vec![value] };
         if is_call {
@@ -108,6 +185,10 @@ fn reduce_path(text: &mut [u8], parts: &[Range<usize>]) -> Option<Component> {
             || kept.len() > 1 && at + 1 == parts[last].start
     };
     path.filter(|at| !is_kept(*at)).for_each(|at| text[at] = b' ');
+    if let Some(body) = goal_at.map(|value| parts[value].clone()) {
+        text[body.clone()].fill(b' ');
+        text[body.start..body.start + OTHER_PLACE.len()].copy_from_slice(OTHER_PLACE.as_bytes());
+    }
     if is_namespace {
         lower_name(&mut text[parts[kept[0]].start..]);
     }
@@ -123,12 +204,14 @@ fn lower_name(plain: &mut [u8]) {
     name[..count].make_ascii_lowercase();
 }
 
+/// Whether a name may be one of the numbers of a step.
+fn is_name_of(index: usize, name: &str) -> bool {
+    let others = OTHER_NAMES.iter().find(|(other, _)| *other == index);
+    BUILT_IN[index] == name || others.is_some_and(|(_, names)| names.contains(&name))
+}
+
 /// Returns the index of the name that is a number of a step, and the letter of its component.
 fn meant(names: &[String]) -> (usize, Option<u8>) {
-    let is = |index: usize, name: &str| {
-        let others = OTHER_NAMES.iter().find(|(other, _)| *other == index);
-        BUILT_IN[index] == name || others.is_some_and(|(_, names)| names.contains(&name))
-    };
     let last = names.len() - 1;
     let letter = match &*names[last].to_ascii_lowercase() {
         "x" => Some(b'x'),
@@ -137,11 +220,11 @@ fn meant(names: &[String]) -> (usize, Option<u8>) {
         _ => None,
     };
     let letter_of = |value: usize| letter.filter(|_| value != last);
-    if let Some(target) = names.iter().position(|name| is(TARGET, name)) {
+    if let Some(target) = names.iter().position(|name| is_name_of(TARGET, name)) {
         return (target, letter_of(target));
     }
     let owner = last.checked_sub(1).filter(|_| letter.is_some());
-    match owner.filter(|owner| [X, V].iter().any(|index| is(*index, &names[*owner]))) {
+    match owner.filter(|owner| [X, V].iter().any(|index| is_name_of(*index, &names[*owner]))) {
         Some(owner) => (owner, letter),
         None => (last, None),
     }
@@ -211,6 +294,13 @@ mod tests {
             ("time.delta_secs()", "     delta_secs  ", ""),
             ("f(x, ref vel, &v) & 0.5.abs()", "f(x,     vel,  v) & 0.5.abs()", ""),
             ("FMath::FInterpTo(x)", "       fInterpTo(x)", ""),
+            ("cam.x += (p.x - cam.x) * k", "    x += (__  -     x) * k", ""),
+            ("this.x += mouse.x - this.x", "     x += __      -      x", ""),
+            ("pos = pos.lerp(player.pos, k)", "pos = pos.lerp(__        , k)", ""),
+            ("x += a.x - b.x", "x += a   - b  ", ""),
+            ("x += a.x - target", "x += a   - target", ""),
+            ("velocity.x += input.x", "velocity   += input  ", "x"),
+            ("a.x += a.y * b.vel.x", "  x +=   y *   vel  ", "x"),
         ] {
             let mut text = written.as_bytes().to_vec();
             let found = reduce(&mut text);

@@ -49,6 +49,7 @@ pub(super) fn plain(text: &str) -> (String, Vec<Component>) {
                 let end = rest.windows(2).skip(2).position(|two| two == b"*/");
                 blank(&mut plain, end.map_or(rest.len(), |end| end + 4))
             }
+            b'-' if is_remark_of_lua(text.as_bytes(), at) => blank(&mut plain, line_length(rest)),
             b'\r' => blank(&mut plain, 1),
             b'0'..=b'9' | b'.' => {
                 let (number, suffix) = number_length(rest);
@@ -71,6 +72,14 @@ pub(super) fn plain(text: &str) -> (String, Vec<Component>) {
     let components = reduce(&mut plain);
     // Only whole characters were blanked, so that the text is still valid UTF-8.
     (String::from_utf8(plain).unwrap_or_default(), components)
+}
+
+/// Whether `--` at a byte begins a remark, which blanks part from an operator such as that of `i--`.
+fn is_remark_of_lua(text: &[u8], at: usize) -> bool {
+    let is_apart = |byte: Option<&u8>| byte.is_none_or(u8::is_ascii_whitespace);
+    text[at..].starts_with(b"--")
+        && is_apart(at.checked_sub(1).map(|before| &text[before]))
+        && (is_apart(text.get(at + 2)) || matches!(text[at + 2], b'-' | b'['))
 }
 
 fn line_length(rest: &[u8]) -> usize {
@@ -121,6 +130,8 @@ mod tests {
             (".", "."),
             ("1e", "1e"),
             ("/*", "  "),
+            ("-- all\nx = -v -- x\n--", "      \nx = -v     \n  "),
+            ("x = x --v", "x = x --v"),
         ] {
             assert_eq!(plain(written).0, read, "{written}");
             assert_eq!(plain(written).0.len(), written.len());

@@ -265,9 +265,12 @@ impl<'t> Reader<'t> {
         if STEP_NAMES.contains(&name) {
             return Some(H);
         }
-        let other = OTHER_NAMES
-            .iter()
-            .find(|(index, names)| names.contains(&name) && !has_word(self.text, BUILT_IN[*index]));
+        let is_first = |(index, names): &&(usize, &[&str])| {
+            let before = names.iter().take_while(|known| **known != name);
+            let mut before = before.chain([&BUILT_IN[*index]]);
+            names.contains(&name) && !before.any(|known| has_word(self.text, known))
+        };
+        let other = OTHER_NAMES.iter().find(is_first);
         let known = || self.names.iter().position(|known| known == name);
         other.map(|(index, _)| *index).or_else(known)
     }

@@ -245,11 +245,17 @@ impl Piece {
         moved(frame.offset.x, rule.fps).or(Some(Course::Stays))
     }
 
-    /// Returns when the whole `rule` first is in this piece at the author's rate, in seconds, from rest at 1.
+    /// Whether nothing draws the body to a place, so that it stops by its speed alone.
+    pub fn coasts(&self) -> bool {
+        matches!(self.rule.motion(self.rule.fps), Some(Motion::Coast { .. }))
+    }
+
+    /// Returns when the whole `rule` first is in this piece at the author's rate, in seconds, from rest at 1, or from a
+    /// speed of 1 if the piece [coasts](Self::coasts).
     pub fn reached_s(&self, rule: &Rule) -> Option<f64> {
         let (text, h) = (&rule.text, rule.step_length(rule.fps));
         let mut registers = text.registers();
-        text.set(&mut registers, rule.state[0], 1.0);
+        text.set(&mut registers, if self.coasts() { 1 } else { rule.state[0] }, 1.0);
         let frames = (super::WATCHED_S * rule.fps).min(super::MAX_WATCHED) as u32;
         let at_frame = |_: &u32| {
             let at: Vec<f64> =
