@@ -33,20 +33,25 @@ pub struct BounceFinding {
     /// Where no flight is long enough to compare, the largest difference of the height, in parts of the highest true
     /// one, and its time (s).
     pub gap: Option<(f64, f64)>,
-    /// Where no bounce is compared, the largest depth below the wall at a tick, in parts of the largest height and in
-    /// metres.
+    /// The height in metres to which it flies, if that is twice as high as the truth ever does.
+    pub climbs_to: Option<f64>,
+    /// Where no bounce is compared, the largest depth below the wall at a tick, in parts of the largest true height and
+    /// in metres.
     pub depth: Option<[f64; 2]>,
+    /// The same for the largest height after the truth has come to rest.
+    pub hop: Option<[f64; 2]>,
     /// Whether a rule after the step met the wall at its ticks only, so that it had nothing to get wrong.
     pub is_luck: bool,
 }
 
 impl BounceFinding {
-    /// Returns the largest error of a height, a landing or a depth, in parts of the flight.
+    /// Returns the largest error of a height, a landing, a depth or a hop, in parts of the flight.
     pub fn error(&self) -> f64 {
         let height = self.height.map_or(0.0, |(_, part)| part.abs());
         let landing = self.landing.map_or(0.0, |(_, part, _)| part.abs());
         let gap = self.gap.map_or(0.0, |(part, _)| part);
-        height.max(landing).max(gap).max(self.depth.map_or(0.0, |[part, _]| part))
+        let rest = [self.depth, self.hop].into_iter().flatten().map(|[part, _]| part);
+        rest.fold(height.max(landing).max(gap), f64::max)
     }
 
     /// Whether nothing of the run could be compared.
@@ -82,6 +87,7 @@ impl BounceFinding {
         let height = self.wrong_height().filter(|_| self.drifts);
         match self.error() {
             _ if self.sinks_at_s.is_some() => Outcome::DiesAway,
+            _ if self.climbs_to.is_some() => Outcome::Grows,
             error if self.never_rests.is_none() && error <= TOLERANCE => Outcome::Accurate,
             error if self.never_rests.is_none() && error <= VISIBLE => Outcome::LooksRight,
             _ => match height {
@@ -97,9 +103,12 @@ impl BounceFinding {
         self.height.filter(|(_, part)| part.abs() > TOLERANCE)
     }
 
-    /// Returns the depth in metres, if that matters.
-    fn wrong_depth(&self) -> Option<f64> {
-        self.depth.filter(|[part, _]| *part > TOLERANCE).map(|[_, depth]| depth)
+    /// Returns the depth or the hop in metres, with what it is, if it matters and is the larger one.
+    fn wrong_rest(&self) -> Option<(&'static str, f64)> {
+        let found = [("depth", self.depth), ("height", self.hop)];
+        let found = found.into_iter().filter_map(|(what, found)| Some((what, found?)));
+        let worst = found.max_by(|(_, [a, _]), (_, [b, _])| a.total_cmp(b));
+        worst.filter(|(_, [part, _])| *part > TOLERANCE).map(|(what, [_, metres])| (what, metres))
     }
 
     /// Returns the quantity that the words are about, its value and its unit.
@@ -110,8 +119,9 @@ impl BounceFinding {
             (Some(at_s), ..) => ("sinks at", at_s, "s"),
             _ if let Some(gain) = self.gain => ("gain a bounce", gain, "m"),
             (_, Some((_, part)), ..) => ("height error", 100.0 * part, "%"),
+            _ if let Some(height) = self.climbs_to => ("height", height, "m"),
             (_, _, Some(height), _) => ("height that stays", height, "m"),
-            _ if let Some(depth) = self.wrong_depth() => ("depth", depth, "m"),
+            _ if let Some((what, metres)) = self.wrong_rest() => (what, metres, "m"),
             (.., Some((_, _, late_s))) => ("delay", late_s, "s"),
             _ if self.gap.is_some() => ("largest error", 100.0 * self.error(), "%"),
             _ => ("height error", 0.0, "%"),
@@ -157,11 +167,18 @@ impl fmt::Display for BounceFinding {
                     after => write!(f, "bounces {size} % too {way} after {after}")?,
                 }
             }
+            _ if let Some(height) = self.climbs_to => {
+                write!(f, "climbs to {} m", significant(height, 2))?;
+            }
             (_, _, Some(height), _) => {
                 write!(f, "never rests: {} mm for ever", significant(1e3 * height, 2))?;
             }
-            _ if let Some(depth) = self.wrong_depth() => {
-                write!(f, "sinks {} mm into the floor", significant(1e3 * depth, 2))?;
+            _ if let Some((what, metres)) = self.wrong_rest() => {
+                let size = significant(1e3 * metres, 2);
+                match what {
+                    "depth" => write!(f, "sinks {size} mm into the floor")?,
+                    _ => write!(f, "hops {size} mm high")?,
+                }
             }
             (.., Some((after, part, late_s))) if part.abs() > TOLERANCE => {
                 let way = if late_s > 0.0 { "late" } else { "early" };

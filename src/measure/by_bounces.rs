@@ -29,6 +29,9 @@ const SLOP: f64 = 0.025;
 /// The largest number of true flights that are followed to a rest.
 const MAX_FLIGHTS: u64 = 1000;
 
+/// A ball has grown if it flies this many times as high as the true one ever does.
+const TWICE: f64 = 2.0;
+
 /// Part of a tick's way within which a ball lands on a tick.
 const ON_TICK: f64 = 1e-9;
 
@@ -57,6 +60,7 @@ pub(super) async fn follow_bounces(
     let (mut below_since, mut highest, mut highest_last) = (None, 0.0_f64, 0.0_f64);
     let (mut up_until_s, mut deepest) = (0.0, 0.0_f64);
     let mut heights = vec![followed.body.stepper.q()[0]];
+    let mut distances = Vec::new();
     let [sunk_s, rest_s] = [SUNK_S, AT_REST_S].map(|most| most.min(AT_END * until_s));
     let slop = if spec.method.bounce().is_some() { SLOP } else { 0.0 };
     let (mut seconds, mut evaluations) = (0.0, 0);
@@ -67,6 +71,7 @@ pub(super) async fn follow_bounces(
         let now = body.stepper.bounces().copied().unwrap_or_default();
         let (y, speed) = (now.distance, body.stepper.v()[now.coordinate].abs());
         highest = highest.max(y);
+        distances.push(y);
         heights.push(body.stepper.q()[now.coordinate]);
         if t + rest_s > until_s {
             highest_last = highest_last.max(y);
@@ -93,7 +98,16 @@ pub(super) async fn follow_bounces(
     let mut impacts = truth.impacts.lock().expect("no thread panics with it");
     let exact = impacts.get_or_insert_with(|| truth.start(Solver::Truth));
     let has_bounced = found.compare(&**exact, &seen, h, if has_own_time { 0.0 } else { h });
-    found.depth = (!has_bounced && deepest > 0.0).then_some([deepest / highest, deepest]);
+    let is_still = !truth.is_driven();
+    let top = exact.true_bounce(0).map(|[_, apex]| apex).filter(|apex| is_still && *apex > 0.0);
+    found.climbs_to = top.filter(|top| highest >= TWICE * top).map(|_| highest);
+    let lies = LIES * highest.max(1.0);
+    if !has_bounced && let Some(top) = top {
+        let part = |size: f64| (size > 0.0).then_some([size / top, size]);
+        found.depth = part(deepest);
+        let lain = rests_at(&**exact, lies).map_or(usize::MAX, |s| ticks(s, tick_hz) as usize + 2);
+        found.hop = part(distances.iter().skip(lain).copied().fold(0.0, f64::max));
+    }
     found.is_luck &= !has_own_time;
     let sunk = below_since.filter(|(since, ..)| seconds - since >= sunk_s);
     found.sinks_at_s = sunk.map(|(since, ..)| since);
@@ -109,9 +123,17 @@ pub(super) async fn follow_bounces(
         let is_known = exact.advance(0.0, until_s - rest_s, 1).is_ok();
         is_known && exact.v()[before.coordinate] == 0.0
     });
-    let lies = LIES * highest.max(1.0);
     let is_up = found.sinks_at_s.is_none() && highest_last > lies;
     found.never_rests = (rests && is_up).then_some(highest_last);
+    if let (Some(height), Some(top), Some((_, part))) = (found.never_rests, top, found.height)
+        && height > part.abs() * top
+    {
+        found.height = None;
+    }
+    if before.impacts > 0 && before.speeds[1].is_nan() {
+        // A soft wall lets the ball swing below it.
+        up_until_s = tick_hz.seconds(moves_until(&distances, lies));
+    }
     // Nothing rests for ever on a wall that moves, or under a force that changes with time.
     if found.sinks_at_s.is_none() && !is_up && !truth.is_driven() {
         let body = &followed.body.stepper;
@@ -152,6 +174,18 @@ fn flight_s(exact: &dyn Stepper, impacts: u64) -> Option<f64> {
     Some(to_s - from_s)
 }
 
+/// Returns the last tick at which a ball is farther than this (m) from where it ends, of its distances at ticks.
+fn moves_until(distances: &[f64], within: f64) -> u64 {
+    let end = distances.last().copied().unwrap_or(0.0);
+    distances.iter().rposition(|y| (y - end).abs() > within).map_or(0, |at| at as u64 + 1)
+}
+
+/// Returns the time of the true impact after which no flight is higher than this height in metres.
+fn rests_at(exact: &dyn Stepper, height: f64) -> Option<f64> {
+    let mut flights = (1..MAX_FLIGHTS).map_while(|impact| exact.true_bounce(impact));
+    Some(flights.find(|[_, apex]| apex.is_nan() || *apex <= height)?[0])
+}
+
 impl BounceFinding {
     /// Compares the time (s) up to which a run is higher than `lies` (m), known within `within_s`, with that of the
     /// truth. The threshold of the engine is the cause of an early rest if it ends the last flights only.
@@ -166,15 +200,12 @@ impl BounceFinding {
         if exact.true_bounce(0).is_none_or(|[_, apex]| apex.is_nan()) {
             return;
         }
-        let falls_below = |height: f64| {
-            let mut flights = (1..MAX_FLIGHTS).map_while(|impact| exact.true_bounce(impact));
-            Some(flights.find(|[_, apex]| apex.is_nan() || *apex <= height)?[0])
-        };
-        let Some(rest_s) = falls_below(lies) else { return };
+        let Some(rest_s) = rests_at(exact, lies) else { return };
         let early_s = rest_s - up_until_s;
         if early_s.abs() > TOLERANCE * rest_s + within_s {
             self.rests_early_s = Some(early_s);
-            let slow_s = falls_below(threshold[1].max(lies)).filter(|_| threshold[1].is_finite());
+            let slow_s =
+                rests_at(exact, threshold[1].max(lies)).filter(|_| threshold[1].is_finite());
             let is_cause = |slow_s: f64| 0.0 < early_s && early_s <= 2.0 * (rest_s - slow_s);
             self.threshold = slow_s.is_some_and(is_cause).then_some(threshold);
         }
@@ -201,7 +232,7 @@ impl BounceFinding {
                     (now.apex, exact.true_bounce(now.apex_after))
                 && is_long(now.apex_after).is_some()
             {
-                heights.push((now.apex_after, apex / wanted - 1.0));
+                heights.push((now.apex_after, (apex / wanted - 1.0).max(-1.0)));
             }
             // Flights become shorter and shorter, so that none is long again.
             if now.impacts > 2 && is_long(now.impacts - 2).is_none() {

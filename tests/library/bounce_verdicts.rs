@@ -87,8 +87,9 @@ fn a_ball_of_short_flights_is_judged_by_heights_and_a_kicked_one_not_at_all() {
     let thrown = "[[ball]]\nheight_m = 2.0\nrestitution = 0.0\n";
     let rests = "[[ball]]\nheight_m = 0.0\nrestitution = 0.0\n";
     for (ball, rate, method, rule, wanted) in [
-        (perpetual, (10, 10.0), "explicit-euler", "clamp", "inaccurate · off by"),
-        (perpetual, (5, 10.0), "rk4", "clamp", "inaccurate · off by"),
+        (perpetual, (10, 10.0), "explicit-euler", "clamp", "grows · climbs to 8.9 m"),
+        (perpetual, (5, 10.0), "rk4", "clamp", "grows · climbs to 4.9 m"),
+        (perpetual, (5, 10.0), "semi-implicit-euler", "clamp", "inaccurate · off by"),
         (&*kicked, (60, 10.0), "explicit-euler", "clamp", "not judged · no flight before"),
         (rests, (60, 5.0), "rk4", "clamp", "accurate"),
         (thrown, (30, 1.5), "velocity-verlet", "clamp", "accurate"),
@@ -190,10 +191,70 @@ fn a_ball_that_keeps_its_height_and_lands_late_does_not_grow() {
 }
 
 #[test]
+fn a_ball_that_flies_twice_as_high_as_the_truth_grows() {
+    let ball = |keys: &str| format!("[[ball]]\n{keys}\n");
+    let thrown = ball("height_m = 1.0\nspeed_m_per_s = 0.1\nrestitution = 0.0\npenalty_hz = 10");
+    for (ball, rate, method, rule, wanted) in [
+        (&thrown, (60, 10.0), "velocity-verlet", "penalty", "grows · climbs to 18 m"),
+        (
+            &ball("height_m = 0.2\nspeed_m_per_s = 0.3\nrestitution = 0.95"),
+            (15, 10.0),
+            "velocity-verlet",
+            "mirror",
+            "grows · climbs to 1.3 m",
+        ),
+        (
+            &ball("height_m = 1.0\nspeed_m_per_s = 0.1\nrestitution = 1.0\npenalty_hz = 30"),
+            (60, 10.0),
+            "velocity-verlet",
+            "penalty",
+            "grows · gains",
+        ),
+    ] {
+        let found = verdict_on(ball, rate, method, rule);
+        assert!(found.starts_with(wanted), "{ball} {method} {rule}: {found}, not {wanted}");
+    }
+}
+
+#[test]
+fn a_ball_that_should_rest_is_judged_by_what_it_does_after_that() {
+    let ball = |keys: &str| format!("[[ball]]\nspeed_m_per_s = 0.1\n{keys}\n");
+    for (ball, rate, method, rule, wanted) in [
+        (
+            ball("restitution = 0.0\nheight_m = 1.0\npenalty_hz = 30"),
+            (240, 10.0),
+            "velocity-verlet",
+            "penalty",
+            "hops",
+        ),
+        (
+            ball("restitution = 0.5\nheight_m = 1.0\npenalty_hz = 1"),
+            (60, 10.0),
+            "rk4",
+            "penalty",
+            " late",
+        ),
+        (
+            ball("restitution = 0.8\nheight_m = 1.0"),
+            (15, 10.0),
+            "velocity-verlet",
+            "clamp",
+            "never rests: 15",
+        ),
+    ] {
+        let found = verdict_on(&ball, rate, method, rule);
+        let is_right = found.contains(wanted) && !found.contains("early");
+        assert!(is_right && !found.contains("looks right"), "{ball} {rate:?} {method}: {found}");
+    }
+}
+
+#[test]
 fn a_soft_floor_without_a_bounce_is_judged_by_its_depth() {
-    for (hz, restitution, wanted) in
-        [(60, 0.0, "sinks 61 mm into the floor"), (15, 0.0, "sinks"), (60, 0.8, "bounces")]
-    {
+    for (hz, restitution, wanted) in [
+        (60, 0.0, "sinks 61 mm into the floor"),
+        (15, 0.0, "hops 182 mm high"),
+        (60, 0.8, "bounces"),
+    ] {
         let ball = format!("[[ball]]\nheight_m = 1.0\nrestitution = {restitution:?}\n");
         let found = verdict_on(&ball, (hz, 6.0), "rk4", "penalty");
         assert!(!found.starts_with("accurate") && found.contains(wanted), "{hz}: {found}");

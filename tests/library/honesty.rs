@@ -425,7 +425,7 @@ fn an_ellipse_that_turns_does_not_grow() {
 }
 
 #[test]
-fn a_spring_that_is_followed_for_a_third_of_a_swing_grows_only_if_its_method_makes_it() {
+fn a_spring_followed_for_a_third_of_a_swing_grows_by_its_method_alone() {
     let text = "title = 't'\ntick_hz = 60\nseconds = 6\n[[spring]]\nmass_kg = 39.4\n\
                 stiffness_n_per_m = 4.68\nx0_m = 0.843\nv0_m_per_s = -0.374\n";
     let scene = Scene::parse("t", text).unwrap();
