@@ -113,7 +113,7 @@ impl Equations {
             is_linear: is_linear(&motion, text.inputs(), T, |input| moves.contains(&input)),
             angles: moves.clone().take(text.coordinates.len()).map(is_angle).collect(),
             is_steered: [motion.reads(THROTTLE), motion.reads(RUDDER)],
-            reads_time: motion.reads(T),
+            reads_time: motion.reads(T) || when.iter().any(|tape| tape.reads(T)),
             text,
             motion,
             energy,
@@ -130,7 +130,7 @@ impl Equations {
         &self.text
     }
 
-    /// Whether the accelerations depend on the time.
+    /// Whether the accelerations or the walls depend on the time.
     pub fn reads_time(&self) -> bool {
         self.reads_time
     }

@@ -3,6 +3,7 @@
 use super::extrapolation::Extrapolation;
 use super::trajectory::{StepControl, Trajectory};
 use crate::body::Body;
+use crate::contact::Contact;
 use crate::impact::Wall;
 use crate::state::{State, Vector, largest};
 
@@ -88,7 +89,8 @@ impl<V: Vector> Flights<V> {
             let is_flown = ahead.found.get(wanted).is_some_and(|[_, height]| !height.is_nan());
             is_flown || ahead.found.len() > wanted + 1
         };
-        while !has(ahead) && !ahead.has_ended && !ahead.trajectory.rests(body) {
+        let rests = |ahead: &Ahead<V>| ahead.trajectory.rests(body) && !has_moving_wall(body, t);
+        while !has(ahead) && !ahead.has_ended && !rests(ahead) {
             ahead.has_ended = ahead.go_on(body, t).is_none() || ahead.found.len() >= MAX_IMPACTS;
         }
         ahead.found.get(wanted).copied()
@@ -181,6 +183,12 @@ fn top<B: Body>(
         t += left;
     }
     Some(wall.height(trajectory.at.q.components()))
+}
+
+/// Whether a wall moves, so that it may throw a body that rests on it.
+fn has_moving_wall<B: Body>(body: &B, t: f64) -> bool {
+    let moves = |it: Contact| it.wall.velocity != 0.0 || it.wall.acceleration != 0.0;
+    [t, t + STRETCH_S].into_iter().any(|t| Contact::all(body, t).any(moves))
 }
 
 /// Returns the wall above which heights of flights are.

@@ -92,8 +92,9 @@ pub(super) fn cross<B: Body>(
     let others = body.first_wall();
     piece.modes[..others].copy_from_slice(&body.piece(t, y).modes[..others]);
     let (push, speed) = (contact.true_push(body, t, y), contact.speed(y));
-    // A flight that is lower than the rounding of the place is none.
-    let is_low = speed * speed < -push * 8.0 * f64::EPSILON * contact.wall.at.abs();
+    // A flight that is lower than the rounding of the place, or of the time at which the wall is there, is none.
+    let size = contact.wall.at.abs() + (contact.wall.velocity * t).abs();
+    let is_low = speed * speed < -push * 8.0 * f64::EPSILON * size;
     if push < 0.0 && is_low || comes_to_rest(speed, push) {
         contact.set_speed(0.0, y);
         piece.modes[switch] = RESTS;

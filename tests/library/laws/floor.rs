@@ -5,6 +5,7 @@ use regatta::run::Lane;
 use regatta::scene::{LaneSpec, Scene};
 use regatta::sim::integrators::method;
 use regatta::sim::{IMPACTS, Solver, Stepper, impact, own_method};
+use regatta::studio::Studio;
 
 use super::{body, parse, stepper};
 use crate::dice::Dice;
@@ -223,6 +224,38 @@ fn a_floor_that_sinks_is_not_sunk_through_and_one_that_swings_has_true_apexes() 
     let own = lane.bounces().unwrap();
     assert_eq!(own.apex_after, 1);
     assert!((own.apex.unwrap() - top).abs() < 1e-9, "{own:?}, not {top}");
+}
+
+#[test]
+fn a_floor_that_throws_a_ball_at_each_swing_has_true_impacts_and_apexes() {
+    let ball = |keys: &str| {
+        format!("[[ball]]\nheight_m = 0.3\nspeed_m_per_s = 0.0\nfloor_amplitude_m = 0.03\n{keys}\n")
+    };
+    let truth = after(&ball("restitution = 0.0\nfloor_frequency_hz = 4.0"), Solver::Truth, 3.0, 60);
+    // By hand: the floor lets the ball go where it falls faster than the ball.
+    let (a, w, g) = (0.03_f64, 4.0 * std::f64::consts::TAU, 9.81);
+    let start = (g / (a * w * w)).asin() / w;
+    let (y0, v0) = (a * (w * start).sin(), a * w * (w * start).cos());
+    let above = |s: f64| y0 + v0 * s - g / 2.0 * s * s - a * (w * (start + s)).sin();
+    let (mut low, mut high) = (0.1, 0.25);
+    for _ in 0..60 {
+        let middle = f64::midpoint(low, high);
+        if above(middle) > 0.0 { low = middle } else { high = middle }
+    }
+    for n in 2..8 {
+        let [at_s, apex] = truth.true_bounce(n).unwrap();
+        let wanted = start + low + 0.25 * (n - 1) as f64;
+        assert!((at_s - wanted).abs() < 1e-9, "{n}: {at_s} s, not {wanted}");
+        assert!((apex - (y0 + v0 * v0 / (2.0 * g))).abs() < 1e-9, "{n}: {apex} m");
+    }
+    // Flights as low as the rounding of the time are none.
+    let kick = format!(
+        "{}[[command]]\nat_s = 4.0\nkick = 1.2\n",
+        ball("restitution = 0.3\nfloor_frequency_hz = 2.0")
+    );
+    let mut studio = Studio::new(parse(&kick).unwrap());
+    (0..480).for_each(|_| studio.tick());
+    assert!(studio.race().t() > 7.9 && studio.race().truth().halted().is_none());
 }
 
 #[test]
