@@ -224,7 +224,7 @@ impl BounceFinding {
         let is_long =
             |impacts| flight_s(exact, impacts).filter(|flight_s| *flight_s >= LEAST_TICKS * h);
         let (mut heights, mut landings) = (Vec::new(), 0);
-        let mut impacts = 0;
+        let (mut impacts, mut are_same) = (0, true);
         self.is_luck = true;
         for &(now, has_peaked, speed) in seen {
             if has_peaked
@@ -244,6 +244,7 @@ impl BounceFinding {
             impacts = now.impacts;
             if let (Some(flight_s), Some([at_s, _])) =
                 (is_long(impacts - 1), exact.true_bounce(impacts))
+                && are_same
             {
                 let late_s = now.landed_at_s - at_s;
                 let late_s = late_s - late_s.clamp(0.0, waits);
@@ -254,6 +255,8 @@ impl BounceFinding {
                 // The first impact is where the start has put it.
                 self.is_luck &= impacts == 1 || now.beyond <= ON_TICK * speed * h;
                 landings += 1;
+                // By more than a flight, the impacts of a number are no longer the same.
+                are_same = part.abs() <= 1.0;
             }
         }
         self.is_luck &= landings > 2;
