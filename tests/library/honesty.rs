@@ -437,6 +437,24 @@ fn a_spring_followed_for_a_third_of_a_swing_grows_by_its_method_alone() {
 }
 
 #[test]
+fn a_losing_swing_of_a_spring_is_known_to_come_to_rest() {
+    let text = "title = 't'\ntick_hz = 200\nseconds = 3\n[[spring]]\nmass_kg = 1\nstiffness_n_per_m = 300\n";
+    let scene = Scene::parse("t", text).unwrap();
+    let spec = LaneSpec::plain(regatta::sim::integrators::method("bogacki-shampine-32").unwrap());
+    let found = Judge::new(&scene).verdict(spec, 200).long_term;
+    assert_eq!(found.is_bounded, Some(true));
+    let mut lane = stepper(&scene, spec.solver());
+    let start = lane.energy().unwrap();
+    let is_low = |tick: &u32| {
+        lane.advance(f64::from(*tick) / 200.0, 1.0 / 200.0, 1).unwrap();
+        lane.energy().unwrap() <= start / 4.0
+    };
+    let wanted = f64::from((0..400_000).find(is_low).unwrap()) / 200.0;
+    let halves = found.halves_in_s.unwrap();
+    assert!((halves / wanted - 1.0).abs() < 0.01, "{halves} s, not {wanted}");
+}
+
+#[test]
 fn verdicts_on_random_scenes_are_true() {
     let mut dice = Dice::new(0);
     let (mut unknown, mut false_ones, total) = (Vec::new(), Vec::new(), 100);

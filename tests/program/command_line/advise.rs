@@ -336,7 +336,7 @@ fn a_margin_that_takes_too_much_work_is_unknown() {
 fn an_unknown_result_is_null_and_not_a_refusal() {
     let folder = tempfile::tempdir().unwrap();
     // The swing loses so slowly that it is not at rest after 2000 times the scene.
-    let scene = "title = 'x'\ntick_hz = 200\nseconds = 3\n[[spring]]\nmass_kg = 1\nstiffness_n_per_m = 300\n";
+    let scene = "title = 'x'\ntick_hz = 200\nseconds = 3\n[[pendulum]]\nlength_m = 0.0327\ntheta0_rad = 0.3\n";
     fs::write(folder.path().join("slow.toml"), scene).unwrap();
     let one = "advise --all --scene slow.toml --method bogacki-shampine-32 --format";
     let output = run_in(folder.path(), &format!("{one} json"));
