@@ -69,7 +69,7 @@ const STEP_NAMES: [&str; 13] = [
 /// The place of another body, which the lines draw theirs to. No person writes this name.
 const OTHER_PLACE: &str = "__";
 
-/// Names that games use for `x`, `v` and `target`, valid unless the text uses the original name, or one before it here.
+/// Names that games use for `x`, `v` and `target`. One is valid unless the text uses the original, or an earlier one.
 const OTHER_NAMES: [(usize, &[&str]); 3] = [
     (X, &["pos", "position", "value", "current"]),
     (V, &["velocity", "vel", "speed", "vx", "velX", "vel_x", "hsp", "hspeed", "vspeed"]),

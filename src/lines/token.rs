@@ -88,7 +88,7 @@ pub(super) fn tokens(text: &str, is_step: bool) -> Parsed<Vec<(Token, Range<usiz
             let what = format!("`{}` cannot be in an expression", first.escape_debug());
             let remedy = match first {
                 '?' => "write `if(c, a, b)` for `c ? a : b`",
-                ':' => "write the value as the first argument: `lerp(x, target, t)`",
+                ':' => "remove it, or write `lerp(x, target, t)` for `x:lerp(target, t)`",
                 _ => "remove it",
             };
             return fault(at..at + first.len_utf8(), what, remedy);

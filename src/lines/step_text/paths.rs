@@ -34,23 +34,12 @@ struct Bodies {
 }
 
 impl Bodies {
-    fn of(text: &[u8]) -> Self {
-        let (mut own, mut read, mut at) = (Vec::new(), Vec::new(), 0);
+    fn of(text: &[u8], paths: &[Vec<Range<usize>>]) -> Self {
+        let (mut own, mut read) = (Vec::new(), Vec::new());
         let (mut has_target, mut has_place) = (false, false);
-        while at < text.len() {
-            let byte = text[at];
-            if !is_name_part(byte) {
-                at += 1;
-                continue;
-            }
-            let parts = parts(text, at);
-            at = parts[parts.len() - 1].end;
-            if byte.is_ascii_digit() {
-                continue;
-            }
-            let name = |part: &Range<usize>| String::from_utf8_lossy(&text[part.clone()]).into();
-            let names: Vec<String> = parts.iter().map(name).collect();
-            let is_call = text[at..].trim_ascii_start().starts_with(b"(");
+        for parts in paths {
+            let (names, after) = (names(text, parts), &text[parts[parts.len() - 1].end..]);
+            let is_call = after.trim_ascii_start().starts_with(b"(");
             let values = &names[..names.len() - usize::from(is_call && names.len() > 1)];
             has_target |= values.iter().any(|name| is_name_of(TARGET, name));
             let (value, _) = meant(values);
@@ -60,7 +49,7 @@ impl Bodies {
             }
             let owner = owner(&values[..value]);
             let is_assigned = matches!(
-                text[at..].trim_ascii_start(),
+                after.trim_ascii_start(),
                 [b'=', rest @ ..] | [b'+' | b'-' | b'*' | b'/', b'=', rest @ ..]
                     if rest.first() != Some(&b'=')
             );
@@ -93,41 +82,52 @@ fn owner(names: &[String]) -> String {
 /// Blanks all but one name of each dotted name, so that no byte moves. Keeps the point before a method of a value.
 /// Returns the components of vectors.
 pub(super) fn reduce(text: &mut [u8]) -> Vec<Component> {
-    let bodies = Bodies::of(text);
-    let (mut at, mut components) = (0, Vec::new());
+    let paths = paths(text);
+    let bodies = Bodies::of(text, &paths);
+    let (mut at, mut paths, mut components) = (0, paths.iter().peekable(), Vec::new());
     while at < text.len() {
         let before = text[..at].iter().rfind(|byte| !byte.is_ascii_whitespace());
         let is_argument = matches!(before, Some(b'(' | b','));
+        let path = paths.next_if(|parts| parts[0].start == at);
+        let end = path.map_or(at + 1, |parts| parts[parts.len() - 1].end);
+        match path.map(Vec::as_slice) {
+            Some([word]) => {
+                let is_reference = REFERENCES.iter().any(|it| it.as_bytes() == &text[word.clone()]);
+                if is_argument && is_reference && text.get(end) == Some(&b' ') {
+                    text[word.clone()].fill(b' ');
+                }
+            }
+            Some(parts) => components.extend(reduce_path(text, parts, &bodies)),
+            None if text[at] == b'&' && is_argument => text[at] = b' ',
+            None => {}
+        }
+        at = end;
+    }
+    components
+}
+
+/// Returns the parts of each name of a text, dotted or not.
+fn paths(text: &[u8]) -> Vec<Vec<Range<usize>>> {
+    let (mut at, mut paths) = (0, Vec::new());
+    while at < text.len() {
         match text[at] {
-            b'&' if is_argument => text[at] = b' ',
             // A number, or a method after a value in brackets.
             byte if byte.is_ascii_digit() || byte == b'.' => {
                 at += 1;
-                while text.get(at).is_some_and(|byte| is_name_part(*byte)) {
-                    at += 1;
-                }
-                continue;
+                at += text[at..].iter().take_while(|byte| is_name_part(**byte)).count();
             }
             byte if is_name_part(byte) => {
-                let parts = parts(text, at);
-                let end = parts[parts.len() - 1].end;
-                if let [word] = &parts[..] {
-                    let is_reference =
-                        REFERENCES.iter().any(|it| it.as_bytes() == &text[word.clone()]);
-                    if is_argument && is_reference && text.get(end) == Some(&b' ') {
-                        text[word.clone()].fill(b' ');
-                    }
-                } else {
-                    components.extend(reduce_path(text, &parts, &bodies));
-                }
-                at = end;
-                continue;
+                paths.push(parts(text, at));
+                at = paths[paths.len() - 1].last().map_or(at + 1, |part| part.end);
             }
-            _ => {}
+            _ => at += 1,
         }
-        at += 1;
     }
-    components
+    paths
+}
+
+fn names(text: &[u8], parts: &[Range<usize>]) -> Vec<String> {
+    parts.iter().map(|part| String::from_utf8_lossy(&text[part.clone()]).into_owned()).collect()
 }
 
 /// Returns the names of the dotted name at a byte.
@@ -149,8 +149,7 @@ fn parts(text: &[u8], mut at: usize) -> Vec<Range<usize>> {
 }
 
 fn reduce_path(text: &mut [u8], parts: &[Range<usize>], bodies: &Bodies) -> Option<Component> {
-    let name = |part: &Range<usize>| String::from_utf8_lossy(&text[part.clone()]).into_owned();
-    let names: Vec<String> = parts.iter().map(name).collect();
+    let names = names(text, parts);
     let (first, last, end) = (&names[0], parts.len() - 1, parts[parts.len() - 1].end);
     let blanks = text[end..].iter().take_while(|byte| **byte == b' ').count();
     let is_call = text.get(end + blanks) == Some(&b'(');

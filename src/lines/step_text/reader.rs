@@ -266,9 +266,11 @@ impl<'t> Reader<'t> {
             return Some(H);
         }
         let is_first = |(index, names): &&(usize, &[&str])| {
-            let before = names.iter().take_while(|known| **known != name);
-            let mut before = before.chain([&BUILT_IN[*index]]);
-            names.contains(&name) && !before.any(|known| has_word(self.text, known))
+            let place = names.iter().position(|known| *known == name);
+            place.is_some_and(|place| {
+                let mut before = names[..place].iter().chain([&BUILT_IN[*index]]);
+                !before.any(|known| has_word(self.text, known))
+            })
         };
         let other = OTHER_NAMES.iter().find(is_first);
         let known = || self.names.iter().position(|known| known == name);
