@@ -103,12 +103,16 @@ impl BounceFinding {
         self.height.filter(|(_, part)| part.abs() > TOLERANCE)
     }
 
-    /// Returns the depth or the hop in metres, with what it is, if it matters and is the larger one.
-    fn wrong_rest(&self) -> Option<(&'static str, f64)> {
-        let found = [("depth", self.depth), ("height", self.hop)];
-        let found = found.into_iter().filter_map(|(what, found)| Some((what, found?)));
-        let worst = found.max_by(|(_, [a, _]), (_, [b, _])| a.total_cmp(b));
-        worst.filter(|(_, [part, _])| *part > TOLERANCE).map(|(what, [_, metres])| (what, metres))
+    /// Returns the larger of the depth and the hop, in metres, with its quantity and the words around the number, if it
+    /// matters.
+    fn wrong_rest(&self) -> Option<(&'static str, [&'static str; 2], f64)> {
+        let depth = ("depth", ["sinks", "into the floor"], self.depth);
+        let hop = ("height", ["hops", "high"], self.hop);
+        let found = [depth, hop].into_iter();
+        let found = found.filter_map(|(quantity, words, found)| Some((quantity, words, found?)));
+        let worst = found.max_by(|(.., [a, _]), (.., [b, _])| a.total_cmp(b));
+        let worst = worst.filter(|(.., [part, _])| *part > TOLERANCE);
+        worst.map(|(quantity, words, [_, metres])| (quantity, words, metres))
     }
 
     /// Returns the quantity that the words are about, its value and its unit.
@@ -121,7 +125,7 @@ impl BounceFinding {
             (_, Some((_, part)), ..) => ("height error", 100.0 * part, "%"),
             _ if let Some(height) = self.climbs_to => ("height", height, "m"),
             (_, _, Some(height), _) => ("height that stays", height, "m"),
-            _ if let Some((what, metres)) = self.wrong_rest() => (what, metres, "m"),
+            _ if let Some((quantity, _, metres)) = self.wrong_rest() => (quantity, metres, "m"),
             (.., Some((_, _, late_s))) => ("delay", late_s, "s"),
             _ if self.gap.is_some() => ("largest error", 100.0 * self.error(), "%"),
             _ => ("height error", 0.0, "%"),
@@ -173,12 +177,8 @@ impl fmt::Display for BounceFinding {
             (_, _, Some(height), _) => {
                 write!(f, "never rests: {} mm for ever", significant(1e3 * height, 2))?;
             }
-            _ if let Some((what, metres)) = self.wrong_rest() => {
-                let size = significant(1e3 * metres, 2);
-                match what {
-                    "depth" => write!(f, "sinks {size} mm into the floor")?,
-                    _ => write!(f, "hops {size} mm high")?,
-                }
+            _ if let Some((_, [verb, whereto], metres)) = self.wrong_rest() => {
+                write!(f, "{verb} {} mm {whereto}", significant(1e3 * metres, 2))?;
             }
             (.., Some((after, part, late_s))) if part.abs() > TOLERANCE => {
                 let way = if late_s > 0.0 { "late" } else { "early" };

@@ -58,7 +58,7 @@ pub(super) async fn follow_bounces(
     let mut followed = truth.follow(spec.solver(), spec.substeps, tick_hz).with_max_work(max_work);
     let (mut run, mut seen) = (BounceRun::default(), Vec::new());
     let (mut below_since, mut highest, mut highest_last) = (None, 0.0_f64, 0.0_f64);
-    let (mut up_until_s, mut deepest) = (0.0, 0.0_f64);
+    let mut up_until_s = 0.0;
     let mut heights = vec![followed.body.stepper.q()[0]];
     let mut distances = Vec::new();
     let [sunk_s, rest_s] = [SUNK_S, AT_REST_S].map(|most| most.min(AT_END * until_s));
@@ -76,7 +76,6 @@ pub(super) async fn follow_bounces(
         if t + rest_s > until_s {
             highest_last = highest_last.max(y);
         }
-        deepest = deepest.max(-slop - y);
         let is_below = y < -slop && !now.speeds[1].is_nan();
         below_since = is_below.then(|| below_since.unwrap_or((t, now.impacts, speed)));
         if y > LIES * highest.max(1.0) {
@@ -104,7 +103,7 @@ pub(super) async fn follow_bounces(
     let lies = LIES * highest.max(1.0);
     if !has_bounced && let Some(top) = top {
         let part = |size: f64| (size > 0.0).then_some([size / top, size]);
-        found.depth = part(deepest);
+        found.depth = part(-slop - distances.iter().copied().fold(0.0, f64::min));
         let lain = rests_at(&**exact, lies).map_or(usize::MAX, |s| ticks(s, tick_hz) as usize + 2);
         found.hop = part(distances.iter().skip(lain).copied().fold(0.0, f64::max));
     }
