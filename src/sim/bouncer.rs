@@ -427,8 +427,10 @@ where
         if let Some(contact) = Contact::all(&body.system, t + h).next() {
             self.bounces.coordinate = contact.wall.coordinate;
             self.add_height(&body.system, contact, y);
-            let lies = |it: &Contact| Some(it.index) == self.rests_on && it.height(y) < LIFTED;
-            self.rests_on = Contact::all(&body.system, t + h).find(lies).map(|it| it.index);
+            self.rests_on = self.rests_on.filter(|index| {
+                let wall = Contact::all(&body.system, t + h).nth(*index);
+                wall.is_some_and(|it| it.height(y) < LIFTED)
+            });
         }
         Ok(())
     }
