@@ -205,7 +205,7 @@ pub static IMPACTS: &[Impact] = impacts! {
         "the engine's own rule, with its slop and threshold; for lanes of Chipmunk, Jolt, Box2D, Rapier, pybullet, MuJoCo and \
          cannon-es";
     "engine-p2" None, Rule::EngineP2,
-        "p2-es's own rule, for the lane of cannon-es, which steps as p2-es does; of a ball of 1 kg, for a heavier one loses more";
+        "p2-es's own rule for a ball of 1 kg, of which a heavier one loses more; for the lane of cannon-es, which steps as p2-es does";
 };
 
 /// Returns the rule with this id.

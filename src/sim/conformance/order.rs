@@ -86,8 +86,8 @@ fn errors<V: Vector>(
         let n = steps / MOMENTS;
         let h = stretch / f64::from(n);
         // Substeps of a tick over which a force is held would not go to the true motion.
-        let mut step = |i: u32| integrator.step(system, t + h * f64::from(i), h, &mut state);
-        let stepped = (0..n).try_for_each(&mut step);
+        let stepped =
+            (0..n).try_for_each(|i| integrator.step(system, t + h * f64::from(i), h, &mut state));
         match stepped {
             // This close to the centre, an implicit equation need not have a solution.
             Err(_) if steps < FINE_ENOUGH => return Ok([f64::INFINITY; 2]),

@@ -66,7 +66,7 @@ pub(super) fn min_height(instrument: Instrument) -> f32 {
     }
 }
 
-/// Frees the pictures of an instrument that is no longer shown.
+/// Frees the images of clouds while no clouds are shown.
 pub(super) fn free_unshown(ui: &Ui, studio: &Studio) {
     if cloud_request(studio).is_none() {
         cloud::free_images(ui);
