@@ -16,7 +16,7 @@ use crate::loops::{ENGINES, POLICIES, PolicyCard, TRACES, TraceCard};
 use crate::measure::cloud::CloudShape;
 use crate::scene::nearest;
 use crate::sim::integrators::{Family, METHODS, Method};
-use crate::sim::{IMPACTS, Impact};
+use crate::sim::{IMPACTS, Impact, impact_spellings};
 use crate::studio::Instrument;
 use crate::tools::source_code::Language;
 #[cfg(feature = "view")]
@@ -117,6 +117,7 @@ pub(super) const METHOD: Id<&Method> = Id {
 
 pub(super) const IMPACT: Id<&Impact> = Id {
     lists: &["impacts"],
+    spellings: || impact_spellings().collect(),
     ..Id::new("rule", || IMPACTS.iter().map(|impact| (impact.id.into(), impact)).collect())
 };
 

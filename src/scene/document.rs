@@ -137,7 +137,8 @@ pub(super) static TOP: [Key<Draft, Scene>; 11] = [
         ),
         read: |draft, top, field| {
             let all = CloudShape::ALL.map(|shape| (shape.id(), shape));
-            draft.scene.clouds = top.named(field, |id| format!("unknown clouds {id:?}"), &all);
+            let ids = all.iter().map(|(id, _)| (*id, *id));
+            draft.scene.clouds = top.named(field, |id| format!("unknown clouds {id:?}"), &all, ids);
         },
         write: |scene| scene.clouds.map(|shape| quoted(shape.id())),
     },

@@ -12,7 +12,7 @@ use super::fault::{FaultKind, SceneFault};
 use super::nearest::{nearest, offer};
 use super::wanted::{Field, Place, Wanted};
 use crate::sim::integrators::{METHODS, Method};
-use crate::sim::{IMPACTS, Impact, TickRate};
+use crate::sim::{IMPACTS, Impact, TickRate, impact_spellings};
 
 mod lists;
 mod named;
@@ -353,21 +353,23 @@ impl<'t> Table<'t> {
     pub(super) fn impact(&mut self, field: &Field) -> Option<&'static Impact> {
         let all: Vec<_> = IMPACTS.iter().map(|impact| (impact.id, impact)).collect();
         let what = |id: &str| format!("unknown rule {:?} in `{}`", clip(id), field.key);
-        self.named(field, what, &all)
+        self.named(field, what, &all, impact_spellings())
     }
 
-    /// Reads the name of one of `all`. `unknown` is the message about another name.
+    /// Reads the name of one of `all`. `unknown` is the message about another name, and `spellings` are those of which
+    /// one may be meant, each with its name.
     pub(super) fn named<T: Copy>(
         &mut self,
         field: &Field,
         unknown: impl Fn(&str) -> String,
         all: &[(&'static str, T)],
+        spellings: impl Iterator<Item = (&'static str, &'static str)>,
     ) -> Option<T> {
         let name = self.text(field)?;
         let found = all.iter().find(|(known, _)| *known == name);
         if found.is_none() {
             let known: Vec<&str> = all.iter().map(|(known, _)| *known).collect();
-            let nearest = nearest(&name, known.iter().map(|name| (*name, *name)));
+            let nearest = nearest(&name, spellings);
             self.report_fault(self.span(field.key), unknown(&name), offer(nearest, &known, '"'));
         }
         found.map(|(_, value)| *value)

@@ -208,6 +208,15 @@ pub static IMPACTS: &[Impact] = impacts! {
         "p2-es's own rule for a ball of 1 kg, of which a heavier one loses more; for the lane of cannon-es, which steps as p2-es does";
 };
 
+/// Words that people use for a rule, with its id.
+const OTHER_WORDS: [(&str, &str); 4] =
+    [("reflect", "mirror"), ("snap", "clamp"), ("soft", "penalty"), ("time-of-impact", "locate")];
+
+/// Returns the ids of the rules and other words for them, each with the id.
+pub fn impact_spellings() -> impl Iterator<Item = (&'static str, &'static str)> {
+    IMPACTS.iter().map(|impact| (impact.id, impact.id)).chain(OTHER_WORDS)
+}
+
 /// Returns the rule with this id.
 pub fn impact(id: &str) -> Option<&'static Impact> {
     IMPACTS.iter().find(|impact| impact.id == id)

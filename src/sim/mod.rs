@@ -68,7 +68,7 @@ pub use body::{Body, Distances, Input, MAX_SWITCHES, NO_BOUNDARIES, Piece};
 pub use body_stepper::stepper;
 pub use clock::{Accumulator, Clock, Due, MAX_FRAME_MS, TickRateError};
 pub use fnv::Fnv;
-pub use impact::{Bounces, IMPACTS, Impact, Wall, impact};
+pub use impact::{Bounces, IMPACTS, Impact, Wall, impact, impact_spellings};
 pub use parameter::{
     Fault, MAX_POINTS, MAX_VALUE, Parameter, ParameterOf, Range, TakesEffect, Text,
 };

@@ -377,7 +377,8 @@ fn faults_of_a_ball_and_its_rules_are_told() {
     for (lanes, ball, wanted) in [
         ("", "[[ball]]\nheight_m = 1\nrestitution = 1.2", "`restitution`"),
         ("", "[[ball]]", "missing key `height_m`"),
-        ("impact = 'mirrr'", ball, "\"mirror\""),
+        ("impact = 'mirrr'", ball, "did you mean \"mirror\"?"),
+        ("impact = 'reflct'", ball, "did you mean \"mirror\"?"),
         ("impact = 'clamp'", "[[spring]]\nmass_kg = 1\nstiffness_n_per_m = 1", "meets a wall"),
         ("", "[[ball]]\nheight_m = 1\ngravity_m_per_s2 = 0", "never comes back"),
         ("", "[[ball]]\nheight_m = 1\nceiling_m = 3", "without gravity only"),
