@@ -94,7 +94,14 @@ pub(super) fn run(args: &TraceArgs) -> Result<(), Error> {
             && truth.stepper.truth_error().is_some_and(|error| error[0].is_finite());
         let is_met = first.is_some_and(|[at_s, _]| at_s <= studio.race().t());
         if kind.has_walls && is_known && !is_met {
-            print_status(&format!("lane 0, {name}: it meets no wall in {seconds} s"));
+            let events = kind.law().map_or(&[][..], |law| &law.text().events);
+            let names: Vec<_> = events.iter().map(|event| format!("`{}`", event.name)).collect();
+            let what = match &*names {
+                [] => "it meets no wall".to_owned(),
+                [name] => format!("{name} never fires"),
+                names => format!("{} never fire", names.join(", ")),
+            };
+            print_status(&format!("lane 0, {name}: {what} in {seconds} s"));
         }
     }
     halts.lines.iter().for_each(|line| print_status(line));

@@ -133,6 +133,16 @@ fn impacts_are_numbered_through_a_kick() {
 }
 
 #[test]
+fn an_event_that_never_fires_is_named() {
+    let folder = tempfile::tempdir().unwrap();
+    let law = "title = 'x'\ntick_hz = 60\nseconds = 2\n[[law]]\n[law.coordinates.y]\nstart = 1\n\
+               acceleration = '-9.81'\n[law.events.floor]\nwhen = 'y + 90'\nthen = { vy = '-vy' }\n";
+    fs::write(folder.path().join("law.toml"), law).unwrap();
+    let output = run_in(folder.path(), "trace --scene law.toml --method rk4 --impacts");
+    assert!(stderr(&output).contains("`floor` never fires in 2 s"), "{}", stderr(&output));
+}
+
+#[test]
 fn impacts_after_a_kick_out_of_rest_have_the_numbers_of_the_truth() {
     let folder = tempfile::tempdir().unwrap();
     let ball = "title = 'x'\ntick_hz = 60\nseconds = 8\n[[ball]]\nheight_m = 1\nrestitution = 0.5\n\
