@@ -136,6 +136,11 @@ impl BounceFinding {
     pub(super) fn aside(&self) -> String {
         match (self.threshold, self.rests_early_s) {
             _ if self.is_luck => ", luck: lands on ticks".to_owned(),
+            _ if self.never_rests.is_some()
+                && (self.wrong_height().is_some() || self.climbs_to.is_some()) =>
+            {
+                ", never rests".to_owned()
+            }
             (Some([speed, height]), _) => format!(
                 ", a threshold of {} m/s: no bounce below {} mm",
                 round(speed, 3),

@@ -63,6 +63,8 @@ fn a_verdict_names_thresholds_early_rests_gains_and_falls() {
         (1.0, 60, "semi-implicit-euler", "clamp", " s early"),
         (1.0, 60, "rk4", "locate", "accurate · bounces right"),
         (1.0, 60, "velocity-verlet", "clamp", "% too high after"),
+        (1.0, 15, "velocity-verlet", "clamp", "never rests: 110 mm for ever"),
+        (0.3, 60, "explicit-euler", "mirror", ", never rests"),
         (1.0, 60, "velocity-verlet", "penalty", "bounces"),
     ]
     .map(|(height, hz, id, rule, wanted)| (verdict_on(&ball(height), (hz, 8.0), id, rule), wanted))
