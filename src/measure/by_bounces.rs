@@ -96,7 +96,9 @@ pub(super) async fn follow_bounces(
     let has_own_time = spec.impact.finds_the_time();
     let mut impacts = truth.impacts.lock().expect("no thread panics with it");
     let exact = impacts.get_or_insert_with(|| truth.start(Solver::Truth));
-    let has_bounced = found.compare(&**exact, &seen, h, if has_own_time { 0.0 } else { h });
+    let step_s = h / f64::from(spec.substeps);
+    let waits = (!has_own_time).then_some(step_s);
+    let has_bounced = found.compare(&**exact, &seen, h, waits);
     let is_still = !truth.is_driven();
     let top = exact.true_bounce(0).map(|[_, apex]| apex).filter(|apex| is_still && *apex > 0.0);
     found.climbs_to = top.filter(|top| highest >= TWICE * top).map(|_| highest);
@@ -211,14 +213,15 @@ impl BounceFinding {
     }
 
     /// Compares records of a run, each with whether it has a new peak and with the speed then, with the truth from its
-    /// start, at ticks of `h` (s). A rule that handles an impact at the end of a tick may be late by up to `waits` (s).
+    /// start, at ticks of `h` (s). A rule that handles an impact at the end of a step of `waits` (s) may be late by so
+    /// much.
     /// Returns whether the run has a flight after an impact that was compared.
     fn compare(
         &mut self,
         exact: &dyn Stepper,
         seen: &[(Bounces, bool, f64)],
         h: f64,
-        waits: f64,
+        waits: Option<f64>,
     ) -> bool {
         let is_long =
             |impacts| flight_s(exact, impacts).filter(|flight_s| *flight_s >= LEAST_TICKS * h);
@@ -245,8 +248,15 @@ impl BounceFinding {
                 (is_long(impacts - 1), exact.true_bounce(impacts))
                 && are_same
             {
-                let late_s = now.landed_at_s - at_s;
-                let late_s = late_s - late_s.clamp(0.0, waits);
+                let late_s = match waits {
+                    // A straight line knows a time within the step, and moves the body as a mirror does.
+                    Some(step_s) => {
+                        let steps = (now.landed_at_s / step_s - ON_TICK).ceil();
+                        let late_s = steps * step_s - at_s;
+                        late_s - late_s.clamp(0.0, step_s)
+                    }
+                    None => now.landed_at_s - at_s,
+                };
                 let part = late_s / flight_s;
                 if self.landing.is_none_or(|(_, worst, _)| part.abs() > worst.abs()) {
                     self.landing = Some((impacts, part, late_s));

@@ -236,10 +236,12 @@ impl<P: Clone, V: Vector> Bouncer<P, V> {
         B: Body<Vector = V>,
         P: Propagator<B>,
     {
-        let part = chord(contact.at(&body.system, t).height(&self.from), contact.height(y));
+        let beyond = -contact.height(y);
+        let part = chord(contact.at(&body.system, t).height(&self.from), -beyond);
         let [speed, back] = contact.turn(&body.system, t + part * h, y);
         contact.set_height((back * (h - part * h)).max(0.0), y);
         self.land(body, t + part * h, y, [speed, back]);
+        self.bounces.beyond = beyond;
     }
 
     /// Finds the impacts of a step from `self.from` that ended at `y`, beyond a wall.

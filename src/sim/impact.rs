@@ -94,9 +94,10 @@ impl Impact {
         self.rule == Rule::After(Turn::Energy)
     }
 
-    /// Whether the rule finds the time of an impact within the step; others handle it at the end of the step.
+    /// Whether the method's own step ends at the impact; others handle it at the end of the step, as does a straight line,
+    /// on which the body moves as by a mirror.
     pub fn finds_the_time(&self) -> bool {
-        matches!(self.rule, Rule::Within(_) | Rule::Swept)
+        matches!(self.rule, Rule::Within(_))
     }
 }
 
