@@ -29,8 +29,8 @@ under the name in the first column.
 
 Without features this package is `sim` without [`bodies`](sim::bodies) and [`law`](sim::law)s, for a game's own loop, which
 may as well take `regatta-sim` alone.
-`lab` adds the rooms up to `stage`; `view` and `window` follow. `cli` is `commands`: those that draw need `view`,
-and `play` needs `window`. The default, `desktop`, has all. Up to `stage` nothing knows a graphics crate, a file or
+`lab` adds the rooms up to `stage`; `view` and `window` follow. `cli` is `commands` above
+`view`, and `play` needs `window`. The default, `desktop`, has all. Up to `stage` nothing knows a graphics crate, a file or
 a wall clock: text comes in as `&str`, time as integers.
 
 # A frame
@@ -189,6 +189,7 @@ pub mod commands;
 pub mod manual;
 pub mod prelude;
 #[cfg(any(feature = "cli", feature = "window"))]
+#[cfg_attr(not(feature = "cli"), allow(dead_code, reason = "the commands read tables, too"))]
 #[allow(clippy::disallowed_methods, clippy::disallowed_types, reason = "of the drivers")]
 mod regular_file;
 #[cfg(any(feature = "cli", feature = "window"))]

@@ -41,7 +41,6 @@ pub(crate) enum Unreadable {
 
 impl Unreadable {
     /// Whether there is no such file.
-    #[cfg(feature = "cli")]
     pub(crate) fn is_missing(&self) -> bool {
         matches!(self, Unreadable::System(error) if error.kind() == io::ErrorKind::NotFound)
     }
@@ -57,7 +56,6 @@ pub(crate) fn read(path: &Path, max_bytes: usize) -> Result<Vec<u8>, Unreadable>
 }
 
 /// Reads a table from a regular file, or from standard input if the path is `-`.
-#[cfg(feature = "cli")]
 pub(crate) fn read_table(path: &Path) -> Result<Vec<u8>, Unreadable> {
     if path.as_os_str() != "-" {
         return read(path, MAX_TABLE_BYTES);
@@ -71,7 +69,6 @@ pub(crate) fn read_table(path: &Path) -> Result<Vec<u8>, Unreadable> {
 }
 
 /// Name of the table at this path, for messages.
-#[cfg(feature = "cli")]
 pub(crate) fn table_name(path: &Path) -> String {
     match path.as_os_str() == "-" {
         true => "standard input".into(),

@@ -36,7 +36,7 @@ mod opening;
 mod presenter;
 mod run_of_session;
 mod schedule;
-#[cfg(feature = "accessibility")]
+#[cfg_attr(not(feature = "accessibility"), path = "window/no_screen_reader.rs")]
 mod screen_reader;
 mod settings;
 mod tick_timer;

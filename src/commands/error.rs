@@ -14,7 +14,6 @@ use annotate_snippets::{AnnotationKind, Group, Level, Renderer, Snippet};
 use super::argument::brief;
 use super::visible::{shortened, visible};
 use crate::scene::{SceneErrors, ShownError};
-#[cfg(feature = "view")]
 use crate::view::{FrameSizeError, GpuError, ReadbackError};
 
 /// Maximum number of bytes of the quoted lines of a fault. Longer ones give way to an excerpt around the fault, with
@@ -252,14 +251,12 @@ impl From<io::Error> for Error {
     }
 }
 
-#[cfg(feature = "view")]
 impl From<GpuError> for Error {
     fn from(error: GpuError) -> Self {
         Self::failed(error)
     }
 }
 
-#[cfg(feature = "view")]
 impl From<FrameSizeError> for Error {
     fn from(error: FrameSizeError) -> Self {
         match error {
@@ -269,7 +266,6 @@ impl From<FrameSizeError> for Error {
     }
 }
 
-#[cfg(feature = "view")]
 impl From<ReadbackError> for Error {
     fn from(error: ReadbackError) -> Self {
         Self::failed(error)

@@ -14,7 +14,6 @@ const PICTURES: [&str; 21] = [
 ];
 
 /// Endings of files that are not pictures. A capture never writes such files.
-#[cfg(feature = "view")]
 const NO_PICTURES: [&str; 11] =
     ["csv", "html", "json", "log", "md", "pdf", "sheet", "toml", "txt", "xml", "zip"];
 
@@ -29,7 +28,6 @@ pub(super) fn is_of_pictures(ending: &str) -> bool {
 }
 
 /// Whether files with this ending are never pictures.
-#[cfg(feature = "view")]
 pub(super) fn holds_no_picture(ending: &str) -> bool {
     NO_PICTURES.contains(&ending)
 }

@@ -2,7 +2,7 @@
 
 use std::collections::HashSet;
 use std::io;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::atomic::Ordering;
 
@@ -11,7 +11,6 @@ use rayon::prelude::*;
 use serde_json::{Value, json};
 
 use super::argument::number_that;
-#[cfg(feature = "view")]
 use super::drawing::Plot;
 use super::error::Error;
 use super::experiment::{PathOrName, scene_names, some_seconds, trace_names};
@@ -40,7 +39,6 @@ use crate::sim::number::counted;
 use crate::table::TableOptions;
 
 mod advice;
-#[cfg(feature = "view")]
 mod diagram;
 mod engine;
 mod measured;
@@ -237,7 +235,6 @@ pub(super) struct LoopArgs {
     /// Draw the motion of each loop as PNG into FILE
     ///
     /// The moment shown against the moment of display, and the cost of each loop, on up to four traces.
-    #[cfg(feature = "view")]
     #[arg(long, value_name = "FILE")]
     plot: Option<PathBuf>,
 
@@ -259,10 +256,10 @@ pub(super) fn run(args: &LoopArgs) -> Result<(), Error> {
     let options = TableOptions { signed, shown, ..args.table.options() };
     let traces = traces(&args.traces, &options, args.display_hz, args.fps)?;
     let format = row_format(&args.out, args.format)?;
-    if let Some(plot) = args.plot() {
+    if let Some(plot) = args.plot.as_deref() {
         check_picture_name(plot, &args.out)?;
     }
-    let places = [Some(&*args.out), args.frame_rows.as_deref(), args.plot()];
+    let places = [Some(&*args.out), args.frame_rows.as_deref(), args.plot.as_deref()];
     let places: Vec<PathBuf> = places.into_iter().flatten().map(same_file_path).collect();
     if (1..places.len()).any(|n| places[..n].contains(&places[n])) {
         return Err(Error::mistake(
@@ -284,9 +281,10 @@ pub(super) fn run(args: &LoopArgs) -> Result<(), Error> {
         }
         None => None,
     };
-    #[cfg(feature = "view")]
-    let plot = args.plot().map(|path| Plot::open(to(path, "--plot"), diagram::room(traces.len())));
-    #[cfg(feature = "view")]
+    let plot = args
+        .plot
+        .as_deref()
+        .map(|path| Plot::open(to(path, "--plot"), diagram::room(traces.len())));
     let plot = plot.transpose()?;
 
     let pool = jobs::pool(0)?;
@@ -294,7 +292,7 @@ pub(super) fn run(args: &LoopArgs) -> Result<(), Error> {
     for trace in &traces {
         let from = rows.len();
         let until_ns = args.until_ns(&scene, trace);
-        let game_time = args.plot().map(|_| GameTime::around_longest(trace, until_ns));
+        let game_time = args.plot.as_deref().map(|_| GameTime::around_longest(trace, until_ns));
         let stretch = Stretch { until_ns, game_time, camera: camera.clone() };
         let log = args.shown.as_ref().and_then(|_| ShownLog::of(trace, args.speed));
         let cards: Vec<_> = log.iter().map(|log| &log.card).chain(&policies).cloned().collect();
@@ -325,7 +323,6 @@ pub(super) fn run(args: &LoopArgs) -> Result<(), Error> {
     if let Some(frames) = frames {
         frames.end()?.finish("the frames")?;
     }
-    #[cfg(feature = "view")]
     if let Some(plot) = plot {
         plot.draw(&diagram::figure(&scene, &rows))?;
     }
@@ -391,14 +388,6 @@ impl LoopArgs {
         let files = self.traces.iter().filter(|path| path.to_str().and_then(trace_card).is_none());
         let traces = files.map(|path| (&**path, "read as a trace"));
         traces.chain(scene_file::input(&self.scene)).collect()
-    }
-
-    /// Returns the path of the picture, if one is requested.
-    fn plot(&self) -> Option<&Path> {
-        #[cfg(feature = "view")]
-        return self.plot.as_deref();
-        #[cfg(not(feature = "view"))]
-        None
     }
 
     /// Returns the requested policies without duplicates, with their settings.

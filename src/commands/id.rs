@@ -10,7 +10,6 @@ use clap::error::ErrorKind;
 
 use super::error::Error;
 
-#[cfg(feature = "view")]
 use crate::look::palette::Theme;
 use crate::loops::{ENGINES, POLICIES, PolicyCard, TRACES, TraceCard};
 use crate::measure::cloud::CloudShape;
@@ -19,7 +18,6 @@ use crate::sim::integrators::{Family, METHODS, Method};
 use crate::sim::{IMPACTS, Impact, impact_spellings};
 use crate::studio::Instrument;
 use crate::tools::source_code::Language;
-#[cfg(feature = "view")]
 use crate::view::RendererChoice;
 
 /// The ids of one kind, with the value of each.
@@ -149,11 +147,9 @@ pub(super) const INSTRUMENT: Id<Instrument> =
 pub(super) const SHAPE: Id<CloudShape> =
     Id::new("shape", || CloudShape::ALL.map(|shape| (shape.id().into(), shape)).into());
 
-#[cfg(feature = "view")]
 pub(super) const THEME: Id<Theme> =
     Id::new("theme", || vec![("dark".into(), Theme::Dark), ("light".into(), Theme::Light)]);
 
-#[cfg(feature = "view")]
 pub(super) const RENDERER: Id<RendererChoice> = Id::new("renderer", || {
     use RendererChoice::{Auto, Cpu, Gpu};
     [("auto", Auto), ("gpu", Gpu), ("cpu", Cpu)].map(|(id, choice)| (id.into(), choice)).into()

@@ -30,7 +30,6 @@ pub(super) fn watch_for_interrupt() -> Arc<AtomicBool> {
 }
 
 /// Calls `tell` at each of these signals, and at once if a signal came earlier.
-#[cfg(feature = "window")]
 pub(super) fn on_interrupt(tell: Box<dyn Fn() + Send>) {
     let SignalState { interrupted, tell: told } = signal_state();
     let mut told = told.lock().unwrap_or_else(PoisonError::into_inner);

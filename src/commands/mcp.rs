@@ -39,9 +39,7 @@ type Tool = (&'static str, &'static [&'static str]);
 
 const TOOLS: &[Tool] = &[
     ("advise", JSON),
-    #[cfg(feature = "view")]
     ("capture", &["--format=sheet", "--out=-"]),
-    #[cfg(feature = "view")]
     ("chapter", JSON),
     ("cloud", JSON),
     ("diff", JSON),

@@ -21,9 +21,7 @@ use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::{CommandFactory, Parser, Subcommand};
 
 mod advise;
-#[cfg(feature = "view")]
 mod capture;
-#[cfg(feature = "view")]
 mod chapter;
 mod cloud;
 mod completions;
@@ -38,7 +36,6 @@ mod mcp;
 #[cfg(feature = "window")]
 mod play;
 mod port;
-#[cfg(feature = "view")]
 mod report;
 mod rule;
 mod show;
@@ -53,28 +50,17 @@ mod id;
 mod scene_file;
 mod spring;
 mod trace_source;
-#[cfg(feature = "window")]
-mod unfinished;
 
-#[cfg(feature = "view")]
 mod clip;
-#[cfg(feature = "view")]
 mod drawing;
-#[cfg(feature = "view")]
 mod frame_folder;
 mod frame_names;
 pub mod manifest;
-#[cfg(feature = "view")]
 mod movie;
-#[cfg(feature = "view")]
 mod picture_format;
-#[cfg(feature = "view")]
 mod pipeline;
-#[cfg(feature = "window")]
-mod preferences;
 mod schedule;
 mod settings;
-#[cfg(feature = "view")]
 mod sheet;
 mod state_log;
 
@@ -237,7 +223,6 @@ impl Cli {
     /// Whether a graphics device may draw for the command.
     pub fn may_take_a_device(&self) -> bool {
         match &self.command {
-            #[cfg(feature = "view")]
             Some(Command::Capture(args)) => args.may_take_a_device(),
             #[cfg(feature = "window")]
             Some(Command::Play(args)) => args.may_take_a_device(),
@@ -269,9 +254,7 @@ macro_rules! subcommands {
 subcommands! {
     #[cfg(feature = "window")]
     Play(PlayArgs) => play::run,
-    #[cfg(feature = "view")]
     Capture(capture::CaptureArgs) => capture::run,
-    #[cfg(feature = "view")]
     Report(report::ReportArgs) => report::run,
     Verify(verify::VerifyArgs) => verify::run,
     Trace(trace::TraceArgs) => trace::run,
@@ -286,7 +269,6 @@ subcommands! {
     Fixture(fixture::FixtureArgs) => fixture::run,
     Diff(diff::DiffArgs) => diff::run,
     Link(link::LinkArgs) => link::run,
-    #[cfg(feature = "view")]
     Chapter(chapter::ChapterArgs) => chapter::run,
     List(list::ListArgs) => list::run,
     Mcp(mcp::McpArgs) => mcp::run,

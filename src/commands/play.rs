@@ -19,8 +19,7 @@ use super::output::{Destination, Output};
 use super::schedule::{FPS, Schedule, frames_in};
 use super::settings::{CaptureSettings, drawing_for_manifest};
 use super::terminal::print_status;
-use super::unfinished::{self, UnfinishedRecording};
-use super::{WINDOW_LIBRARIES, clip, preferences, scene_file, state_log};
+use super::{WINDOW_LIBRARIES, clip, scene_file, state_log};
 use crate::atomic_file::IfExists;
 use crate::look::palette::Theme;
 use crate::loops::TraceCard;
@@ -31,6 +30,10 @@ use crate::sim::number::counted;
 use crate::studio::{Motion, SavedPreferences, Studio, show_clouds_of_scene};
 use crate::view::RendererChoice;
 use crate::window::{self, Closed, SceneFiles, WindowError, WindowSettings};
+use unfinished::UnfinishedRecording;
+
+mod preferences;
+mod unfinished;
 
 const EXAMPLES: &str = "\
 Examples:

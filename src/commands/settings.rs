@@ -11,7 +11,6 @@ use crate::run::race::Mode;
 use crate::scene::{Check, Scene};
 use crate::sim::integrators::method;
 use crate::studio::{Instrument, Motion, RunCommand, Studio};
-#[cfg(feature = "view")]
 use crate::view::RendererChoice;
 
 /// Settings of a capture, namely its frames, their size and their content.
@@ -32,7 +31,6 @@ pub(super) struct CaptureSettings {
     pub(super) theme: Theme,
     /// Number of ticks between two states in the manifest.
     pub(super) mark_every: u64,
-    #[cfg(feature = "view")]
     pub(super) renderer: RendererChoice,
 }
 
@@ -132,7 +130,6 @@ pub(super) fn from_manifest(manifest: &Manifest) -> Result<CapturedRun, String> 
             Some(other) => return Err(format!("this program has no theme {other:?}")),
         },
         mark_every: drawing.mark_every,
-        #[cfg(feature = "view")]
         renderer: RendererChoice::Cpu,
     };
     Ok(CapturedRun { experiment, capture, checks })

@@ -1,11 +1,10 @@
 //! `regatta sweep`: runs every method at every tick rate on every scene, for a tidy table and diagrams.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use clap::Args;
 use serde_json::json;
 
-#[cfg(feature = "view")]
 use super::drawing::Plot;
 use super::error::Error;
 use super::experiment::{PathOrName, scene_names, some_seconds};
@@ -26,10 +25,8 @@ use crate::sim::Impact;
 use crate::sim::bodies::incompatibility;
 use crate::sim::integrators::{METHODS, Method};
 
-#[cfg(feature = "view")]
 mod diagrams;
 mod grid;
-#[cfg(feature = "view")]
 mod round_off;
 mod varied;
 
@@ -121,14 +118,12 @@ pub(super) struct SweepArgs {
     /// Draw work-precision diagrams as PNG into FILE
     ///
     /// One for each scene; - is standard output.
-    #[cfg(feature = "view")]
     #[arg(long, value_name = "FILE", conflicts_with = "vary")]
     plot: Option<PathBuf>,
 
     /// Also draw the round-off of f32 and f64
     ///
     /// On the chapter's ship, for --scene ship --method rk4: the step below which rounding makes the error grow again.
-    #[cfg(feature = "view")]
     #[arg(long, requires = "plot")]
     round_off: bool,
 
@@ -139,14 +134,13 @@ pub(super) struct SweepArgs {
 
 pub(super) fn run(args: &SweepArgs) -> Result<(), Error> {
     let swept = args.load()?;
-    #[cfg(feature = "view")]
     if args.round_off && !round_off::is_swept(&swept) {
         return Err(Error::mistake(
             "--round-off needs the chapter's ship under Runge-Kutta; give --scene ship --method rk4, or leave it out",
         ));
     }
     let format = row_format(&args.out, args.format)?;
-    if let Some(plot) = args.plot() {
+    if let Some(plot) = args.plot.as_deref() {
         check_picture_name(plot, &args.out)?;
     }
     let interrupted = watch_for_interrupt();
@@ -155,9 +149,7 @@ pub(super) fn run(args: &SweepArgs) -> Result<(), Error> {
     let inputs: Vec<_> = args.scenes.iter().filter_map(|path| scene_file::input(path)).collect();
     let to = |path, option| Destination { path, option, if_exists, inputs: &inputs };
     let out = to(&args.out, "--out").open_for_text()?;
-    #[cfg(feature = "view")]
-    let plot = args.plot().map(|path| to(path, "--plot"));
-    #[cfg(feature = "view")]
+    let plot = args.plot.as_deref().map(|path| to(path, "--plot"));
     let plot = plot
         .map(|to| Plot::open(to, swept.scenes.len() + usize::from(args.round_off)))
         .transpose()?;
@@ -167,7 +159,6 @@ pub(super) fn run(args: &SweepArgs) -> Result<(), Error> {
     let written = write_rows(out, format, columns, &rows);
     // The picture is drawn even if the rows could not be written, because their reader may have closed the pipe after
     // the first few.
-    #[cfg(feature = "view")]
     if let Some(plot) = plot {
         let rounded = args.round_off.then(|| round_off::error_curves(&swept.methods));
         plot.draw(&diagrams::figure(&swept, &rows, rounded.unwrap_or_default()))?;
@@ -176,14 +167,6 @@ pub(super) fn run(args: &SweepArgs) -> Result<(), Error> {
 }
 
 impl SweepArgs {
-    /// Returns the path of the picture, if one is requested.
-    fn plot(&self) -> Option<&Path> {
-        #[cfg(feature = "view")]
-        return self.plot.as_deref();
-        #[cfg(not(feature = "view"))]
-        None
-    }
-
     /// Returns the requested scenes, methods and rates, without repetitions.
     fn load(&self) -> Result<Swept, Error> {
         let built_in = || SCENES.iter().map(|scene| PathBuf::from(scene.name)).collect();

@@ -1,9 +1,7 @@
 //! Messages and progress on standard error.
 
-#[cfg(feature = "view")]
 use std::ffi::OsString;
 use std::io::{self, Write};
-#[cfg(feature = "view")]
 use std::path::Path;
 
 use annotate_snippets::Renderer;
@@ -29,7 +27,6 @@ pub fn print_error(error: &Error) {
 }
 
 /// Reports the entries of a folder that no command made and that are left alone.
-#[cfg(feature = "view")]
 pub(super) fn report_left_alone(folder: &Path, others: &[OsString]) {
     if !others.is_empty() {
         let others: Vec<_> = others.iter().map(|name| name.display().to_string()).collect();

@@ -9,6 +9,9 @@ use std::time::Duration;
 
 use super::tick_rate::TickRate;
 
+#[cfg(feature = "serde")]
+mod saved;
+
 /// A second in nanoseconds × percent.
 const SECOND: i128 = 1_000_000_000 * 100;
 /// The largest `f64` below 1.
@@ -17,48 +20,13 @@ const BELOW_ONE: f64 = 1.0 - f64::EPSILON / 2.0;
 /// Converts real time into ticks.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Deserialize, serde::Serialize))]
-#[cfg_attr(feature = "serde", serde(try_from = "SavedClock", into = "SavedClock"))]
+#[cfg_attr(feature = "serde", serde(try_from = "saved::SavedClock", into = "saved::SavedClock"))]
 pub struct Clock {
     tick_hz: TickRate,
     speed_percent: u32,
     max_frame_ms: u32,
     /// The owed time, less than one tick.
     accumulator: Accumulator,
-}
-
-/// A clock as serde writes it. The owed time has a high and a low half, because few formats have numbers of 128 bits.
-#[cfg(feature = "serde")]
-#[derive(serde::Deserialize, serde::Serialize)]
-struct SavedClock {
-    tick_hz: String,
-    speed_percent: u32,
-    max_frame_ms: u32,
-    owed: [u64; 2],
-}
-
-#[cfg(feature = "serde")]
-impl From<Clock> for SavedClock {
-    fn from(clock: Clock) -> Self {
-        let Clock { tick_hz, speed_percent, max_frame_ms, accumulator } = clock;
-        let owed = accumulator.owed();
-        let owed = [(owed >> 64) as u64, owed as u64];
-        Self { tick_hz: tick_hz.to_string(), speed_percent, max_frame_ms, owed }
-    }
-}
-
-#[cfg(feature = "serde")]
-impl TryFrom<SavedClock> for Clock {
-    type Error = String;
-
-    fn try_from(saved: SavedClock) -> Result<Self, String> {
-        let SavedClock { tick_hz, speed_percent, max_frame_ms, owed: [high, low] } = saved;
-        let mut clock = Self::new(tick_hz.parse::<TickRate>()?);
-        clock.set_speed_percent(speed_percent);
-        clock.set_max_frame_ms(max_frame_ms);
-        clock.accumulator.owed = i128::from(high) << 64 | i128::from(low);
-        let is_below_a_tick = (0..clock.tick()).contains(&clock.accumulator.owed);
-        is_below_a_tick.then_some(clock).ok_or_else(|| "a clock owes less than a tick".to_owned())
-    }
 }
 
 /// The error about a tick rate in Hz outside [`Clock::TICK_HZ`].

@@ -42,7 +42,6 @@ impl DoubleDouble {
 }
 
 /// Functions that only the closed forms of bodies need.
-#[cfg(feature = "lab")]
 impl DoubleDouble {
     pub(super) const ONE: Self = Self { high: 1.0, low: 0.0 };
 

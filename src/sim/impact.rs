@@ -24,7 +24,6 @@ pub struct Wall {
 }
 
 /// Frequency of a soft wall in hertz, unless a ball has its own: k is 898 per second squared.
-#[cfg(feature = "lab")]
 pub(super) const SOFT_HZ: f64 = 4.77;
 
 /// A flight shorter than this, in seconds, ends the bouncing: the error is below 1e-17 m.
@@ -54,7 +53,6 @@ impl Wall {
     }
 
     /// Returns the acceleration by the wall under the rule `penalty`, as a spring of this frequency in hertz.
-    #[cfg(feature = "lab")]
     pub(super) fn soft_push(&self, hz: f64, q: &[f64], v: &[f64]) -> f64 {
         let (depth, speed) = (-self.height(q), self.speed(v));
         if depth <= 0.0 {
@@ -89,13 +87,12 @@ impl Impact {
     }
 
     /// Whether the rule takes the speed from the energy.
-    #[cfg(feature = "lab")]
     pub(super) fn needs_energy(&self) -> bool {
         self.rule == Rule::After(Turn::Energy)
     }
 
-    /// Whether the method's own step ends at the impact; others handle it at the end of the step, as does a straight line,
-    /// on which the body moves as by a mirror.
+    /// Whether the method's own step ends at the impact. Others handle it at the end of the step, and so does a straight
+    /// line, on which the body moves as by a mirror.
     pub fn finds_the_time(&self) -> bool {
         matches!(self.rule, Rule::Within(_))
     }

@@ -15,6 +15,14 @@
         reason = "the oldest compiler is for games, without features"
     )
 )]
+#![cfg_attr(
+    not(feature = "lab"),
+    allow(
+        dead_code,
+        unused_imports,
+        reason = "bodies and laws use it, which are not compiled here"
+    )
+)]
 // docs.rs marks what needs a feature with its name.
 #![cfg_attr(docsrs, feature(doc_cfg))]
 

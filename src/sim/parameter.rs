@@ -251,7 +251,6 @@ impl<B> ParameterOf<B> {
     }
 
     /// Returns the parameter without its field.
-    #[cfg(feature = "lab")]
     pub(super) fn parameter(&self) -> Parameter {
         Parameter { unit: unit(&self.parameter.key).1.into(), ..self.parameter.clone() }
     }

@@ -206,7 +206,6 @@ impl<V: Vector> Reference<V> {
 }
 
 /// Functions that check the claims of laws and custom bodies within a budget of evaluations.
-#[cfg(feature = "lab")]
 impl<V: Vector> Reference<V> {
     /// Returns a reference solution that fails after about this number of evaluations in all.
     pub(super) fn within(like: &State<V>, evaluations: u64) -> Self {

@@ -9,7 +9,7 @@ use winit::window::Window;
 
 use super::clipboard::Clipboard;
 use super::presenter::Presenter;
-use super::{Event, WindowError};
+use super::{Event, WindowError, screen_reader};
 use crate::studio::{Command, Studio};
 use crate::view::{FrameRenderer, RendererChoice};
 
@@ -57,10 +57,7 @@ impl Canvas {
             size_px: [0, 0],
         };
         // Screen readers find the window only if this comes before it is visible.
-        #[cfg(feature = "accessibility")]
-        canvas.egui.init_accesskit(event_loop, &canvas.window, proxy);
-        #[cfg(not(feature = "accessibility"))]
-        drop(proxy);
+        screen_reader::announce(&mut canvas.egui, event_loop, &canvas.window, proxy);
         canvas.resize();
         Ok(canvas)
     }
@@ -115,12 +112,7 @@ impl Canvas {
         self.renderer = FrameRenderer::new(self.presenter.max_texture_side_px());
         let egui = translator(&self.renderer, &self.window);
         let lost = mem::replace(&mut self.egui, egui);
-        #[cfg(feature = "accessibility")]
-        {
-            self.egui.accesskit = lost.accesskit;
-        }
-        #[cfg(not(feature = "accessibility"))]
-        drop(lost);
+        screen_reader::hand_over(lost, &mut self.egui);
     }
 }
 

@@ -6,7 +6,6 @@ use winit::event_loop::ActiveEventLoop;
 
 use super::App;
 use super::opening::ReadFile;
-#[cfg(feature = "accessibility")]
 use super::screen_reader::{self, Request};
 use crate::scene::{LaneSpec, Scene, SceneErrors};
 use crate::studio::{Dialog, Found, file_is_back, file_is_gone, open_advised_spring};
@@ -14,7 +13,6 @@ use crate::studio::{Dialog, Found, file_is_back, file_is_gone, open_advised_spri
 /// An event from the program's own threads or from a screen reader.
 pub(super) enum Event {
     /// A request from a screen reader.
-    #[cfg(feature = "accessibility")]
     ScreenReader(Request),
     /// A worker has found something.
     Found(Found),
@@ -36,7 +34,6 @@ pub(super) enum Event {
     FileBack(PathBuf),
 }
 
-#[cfg(feature = "accessibility")]
 impl From<Request> for Event {
     fn from(request: Request) -> Self {
         Self::ScreenReader(request)
@@ -53,7 +50,6 @@ impl App {
     /// Handles the event.
     pub(super) fn handle(&mut self, event_loop: &ActiveEventLoop, event: Event) {
         match event {
-            #[cfg(feature = "accessibility")]
             Event::ScreenReader(request) => {
                 if let Some(canvas) = &mut self.canvas {
                     screen_reader::answer_request(&mut canvas.egui, request);

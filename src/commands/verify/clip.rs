@@ -7,17 +7,13 @@ use std::path::Path;
 use serde_json::{Value, json};
 
 use super::physics::{PhysicsChange, first_change};
-#[cfg(feature = "view")]
 use super::pixels;
 use super::report::{DIRECTORY, Report};
 use super::{Frames, Repeated, VerifyArgs};
 use crate::commands::captured::{read_run, unjudged};
-#[cfg(feature = "view")]
 use crate::commands::clip::record;
 use crate::commands::error::Error;
-#[cfg(feature = "view")]
 use crate::commands::error::PlaceOf;
-#[cfg(feature = "view")]
 use crate::commands::frame_folder::{FolderPolicy, FrameFolder};
 use crate::commands::frame_names::{frame_digits, in_the_way, is_pending};
 use crate::commands::interrupt::watch_for_interrupt;
@@ -46,13 +42,10 @@ pub(super) fn judge(args: &VerifyArgs) -> Result<Report, Error> {
             "{name} has changed since the capture; verify runs the captured scene"
         ));
     }
-    #[cfg(feature = "view")]
     let redrawn = match args.physics_only {
         true => Ok(None),
         false => pixels::judge(args, &rerun, &manifest).map(Some),
     };
-    #[cfg(not(feature = "view"))]
-    let redrawn = Ok::<Option<(Frames, Repeated)>, Error>(None);
     let run = || rerun.run(frames, &watch_for_interrupt()).ok_or_else(Error::nothing_written);
     let (redrawn, repeated, failed) = match redrawn {
         Ok(Some((frames, run))) => (Some(frames), run, None),
@@ -162,7 +155,6 @@ fn unlisted(dir: &Path, manifest: &Manifest) -> Vec<String> {
 }
 
 /// Draws the capture in `dir` again, and replaces the old one once the new one is complete.
-#[cfg(feature = "view")]
 pub(super) fn bless(dir: &Path) -> Result<(), Error> {
     // This is checked first, so that a missing clip is not reported as a problem with the folder.
     if !dir.join(FILE_NAME).exists() && !is_pending(dir) {

@@ -16,7 +16,6 @@ use rayon::prelude::*;
 
 use blocks::in_blocks;
 pub use instruction_set::InstructionSet;
-#[cfg(feature = "lab")]
 pub(crate) use instruction_set::Kernel;
 use one_by_one::one_by_one;
 

@@ -67,7 +67,6 @@ fn a_scene_may_be_given_without_its_option_in_every_command() {
             ("sweep", ""),
             ("cloud", ""),
             ("loop", ""),
-            #[cfg(feature = "view")]
             ("capture", "--out x"),
         ] {
             let wanted = read(&format!("{command} --scene {scene} {rest}"));

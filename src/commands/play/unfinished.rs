@@ -11,9 +11,9 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
 
-use super::output::begin_file;
 use super::preferences;
 use crate::atomic_file::{IfExists, RANDOM_CHARS, is_random};
+use crate::commands::output::begin_file;
 use crate::regular_file;
 use crate::window::KeepRecording;
 

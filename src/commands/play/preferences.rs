@@ -7,9 +7,9 @@ use std::path::{Path, PathBuf};
 
 use directories::ProjectDirs;
 
-use super::output::begin_file;
-use super::terminal::print_status;
 use crate::atomic_file::IfExists;
+use crate::commands::output::begin_file;
+use crate::commands::terminal::print_status;
 use crate::regular_file;
 use crate::scene::MAX_FILE_BYTES;
 use crate::studio::{SavedPreferences, Studio};
