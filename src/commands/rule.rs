@@ -33,7 +33,7 @@ The answer has the frequency, the damping ratio, the overshoot and the time to t
 the way, at the author's frame rate and at others. It has the rates below which the rule rings and
 grows, the same spring in the words of user interfaces, and code that moves alike at any frame rate.
 
-A rule that falls onto a floor at 0 is a ball: the answer has the heights of its bounces over the true
+A rule that falls onto a floor is a ball: the answer has the heights of its bounces over the true
 ones, and two numbers. s is that of the step: -1 for semi-implicit Euler, 0 for an exact fall, 1 for
 explicit Euler. kappa is that of the line at the floor: 0 where it keeps the energy, 0.5 where it sets
 the place, 1 where it mirrors it. Without loss an impact adds (s + kappa) g h to the speed.
@@ -183,6 +183,7 @@ fn object(rule: &Rule, written: &str) -> Value {
         "bounce": rule.bounce().map(|bounce| json!({
             "gravity": bounce.gravity,
             "restitution": bounce.restitution,
+            "floor": bounce.floor,
             "s": bounce.s,
             "kappa": bounce.kappa,
             "seen": bounce.seen.iter().map(|seen| {
@@ -307,6 +308,9 @@ fn bounces(bounce: &RuleBounce, fps: f64) -> String {
     let gain = number(bounce.s + bounce.kappa);
     let here = bounce.seen.iter().find(|seen| seen.fps == fps);
     let course = match here.and_then(|seen| seen.heights.into_iter().flatten().next_back()) {
+        Some(_) if bounce.restitution > 1.0 + 1e-6 => {
+            "it grows, for it leaves faster than it lands"
+        }
         None => "no impact is seen",
         Some(height) if height < 0.0 => "it sinks through the floor",
         Some(height) if height > 1.02 => "it bounces too high",
@@ -314,13 +318,14 @@ fn bounces(bounce: &RuleBounce, fps: f64) -> String {
         Some(_) => "its mean height is right within 2 %",
     };
     format!(
-        "a ball that falls by {} a second per second and keeps {} of its speed at the floor:\n\
+        "a ball that falls by {} a second per second and keeps {} of its speed at the floor{}:\n\
          s = {} by the step, kappa = {} by the line at the floor\n\
          without loss an impact adds (s + kappa) g h = {gain} g h to the speed\n\
          at {fps} frames per second {course}\n\
          \nheight after impacts over the true one, mean of 64 falls of 0.45 s, as from 1 m on Earth:\n{}",
         number(bounce.gravity),
         number(bounce.restitution),
+        if bounce.floor == 0.0 { String::new() } else { format!(" at {}", bounce.floor) },
         number(bounce.s),
         number(bounce.kappa),
         text(BOUNCES, &bounce.seen, "  "),
