@@ -91,8 +91,8 @@ impl Impact {
         self.rule == Rule::After(Turn::Energy)
     }
 
-    /// Whether the method's own step ends at the impact. Others handle it at the end of the step, and so does a straight
-    /// line, on which the body moves as by a mirror.
+    /// Whether the method's own step ends at the impact. Others handle it at the end of the step, and so does a
+    /// straight line, on which the body moves as by a mirror.
     pub fn finds_the_time(&self) -> bool {
         matches!(self.rule, Rule::Within(_))
     }

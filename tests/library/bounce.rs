@@ -6,7 +6,8 @@ use regatta::run::{Lane, METRICS, Race};
 use regatta::scene::{LaneSpec, Scene};
 use regatta::sim::bodies::{Ball, Body, kind};
 use regatta::sim::integrators::{METHODS, method};
-use regatta::sim::{Bounces, IMPACTS, Solver, State, impact, own_method, stepper};
+use regatta::sim::law::StepText;
+use regatta::sim::{Bounces, IMPACTS, Impact, Solver, State, impact, own_method, stepper};
 use regatta::studio::{RunCommand, StageCommand, Studio};
 
 const G: f64 = 9.81;
@@ -493,6 +494,36 @@ fn lines_with_a_floor_of_their_own_are_their_own_rule() {
     assert!(found.starts_with("dies away · bounces") && found.contains("too low"), "{found}");
     let refused = scene_fault("[[lane]]\nmethod = 'rk4'\nimpact = 'none'");
     assert!(refused.contains("is not for rk4"), "{refused}");
+}
+
+#[test]
+fn the_printed_lines_of_a_rule_bounce_a_ball_as_the_rule_does() {
+    // Lines of one step have no loops, and p2's lines are of a ball that lands for the first time.
+    let is_whole =
+        |rule: &&Impact| !rule.code.contains("while") && !["none", "engine-p2"].contains(&rule.id);
+    for rule in IMPACTS.iter().filter(is_whole) {
+        let (id, step) = match rule.id {
+            "engine" => ("engine-jolt", ""),
+            "locate-chord" => ("velocity-verlet", ""),
+            _ if rule.code.starts_with("# In place of the step") => ("semi-implicit-euler", ""),
+            _ => ("semi-implicit-euler", "v -= 9.81 * h\nx += h * v\n"),
+        };
+        for e in [0.0, 0.3, 0.8, 1.0] {
+            let lines = rule.code.replace("let e = 0.8", &format!("let e = {e:?}"));
+            let lines = StepText::read_rule(&format!("{step}{lines}"), "").unwrap();
+            let mut registers = lines.registers();
+            let mut lane = stepper(ball([1.0, 0.1], e), under(id, rule.id));
+            for (index, value) in [1.0, 0.1].into_iter().enumerate() {
+                lines.set(&mut registers, index, value);
+            }
+            for tick in 0..1200 {
+                lines.step(&mut registers, H, 0.0);
+                lane.advance(f64::from(tick) * H, H, 1).unwrap();
+                let what = format!("{}, {e}, tick {tick}", rule.id);
+                near(lines.value(&registers, 0), lane.q()[0], 1e-9, &what);
+            }
+        }
+    }
 }
 
 fn scene_fault(lanes: &str) -> String {
