@@ -92,8 +92,8 @@ impl BounceFinding {
             error if self.never_rests.is_none() && error <= VISIBLE => Outcome::LooksRight,
             _ => match height {
                 Some((_, part)) if part > 0.0 => Outcome::Grows,
-                Some(_) => Outcome::DiesAway,
-                None => Outcome::Bounded,
+                Some(_) if self.never_rests.is_none() => Outcome::DiesAway,
+                _ => Outcome::Bounded,
             },
         }
     }

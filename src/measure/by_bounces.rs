@@ -103,14 +103,20 @@ pub(super) async fn follow_bounces(
     let top = exact.true_bounce(0).map(|[_, apex]| apex).filter(|apex| is_still && *apex > 0.0);
     found.climbs_to = top.filter(|top| highest >= TWICE * top).map(|_| highest);
     let lies = LIES * highest.max(1.0);
+    // A ball that has lain below the floor since its fall sinks no more.
+    let then = distances.len().saturating_sub(ticks(sunk_s, tick_hz) as usize + 1);
+    let lowest = |part: &[f64]| part.iter().copied().fold(0.0, f64::min);
+    let lies_below = !has_bounced
+        && below_since.is_some()
+        && lowest(&distances[then..]) >= lowest(&distances[..then]) - lies;
     if !has_bounced && let Some(top) = top {
         let part = |size: f64| (size > 0.0).then_some([size / top, size]);
-        found.depth = part(-slop - distances.iter().copied().fold(0.0, f64::min));
+        found.depth = part(-slop - lowest(&distances));
         let lain = rests_at(&**exact, lies).map_or(usize::MAX, |s| ticks(s, tick_hz) as usize + 2);
         found.hop = part(distances.iter().skip(lain).copied().fold(0.0, f64::max));
     }
     found.is_luck &= !has_own_time;
-    let sunk = below_since.filter(|(since, ..)| seconds - since >= sunk_s);
+    let sunk = below_since.filter(|(since, ..)| seconds - since >= sunk_s && !lies_below);
     found.sinks_at_s = sunk.map(|(since, ..)| since);
     let is_unturned = |(_, impacts, speed)| (impacts == before.impacts).then_some(speed);
     found.falls_through = sunk.and_then(is_unturned);

@@ -99,6 +99,12 @@ fn a_ball_of_short_flights_is_judged_by_heights_and_a_kicked_one_not_at_all() {
         let found = verdict_on(ball, rate, method, rule);
         assert!(found.starts_with(wanted), "{ball} {rate:?} {method} {rule}: {found}");
     }
+    let dropped = "[[ball]]\nheight_m = 3.072\nrestitution = 0.0\n";
+    let lies = verdict_on(dropped, (75, 8.0), "rk4", "before-tick");
+    assert!(lies.starts_with("looks right · sinks 67 mm into the floor"), "{lies}");
+    let hops = "[[ball]]\nheight_m = 0.225\nspeed_m_per_s = 2.84\nrestitution = 0.5\n";
+    let hops = verdict_on(hops, (75, 20.0), "semi-implicit-euler", "mirror");
+    assert_eq!(hops, "inaccurate · bounces 7.1 % too low, never rests");
     // On a straight line to the end of the tick, a swept ball moves as a mirrored one.
     let thrown = "[[ball]]\nheight_m = 1.0\nspeed_m_per_s = 0.1\nrestitution = 1.0\n";
     let [mirror, swept] = ["mirror", "swept"]
