@@ -29,11 +29,12 @@ for each number; commas, semicolons, tabs or spaces separate its cells. It may b
 an object on each line. A dump, whose first line is as Frame: 1000, is compared line by line, by frames.
 
 Diff matches rows by the columns tick, lane, body and coordinate, as far as the tables have them; without
-tick by t, and without t by the number of the row. --key names other columns, such as frame,object; one
-called frame or step then counts ticks. Diff compares all columns but these, t and method; --columns and
---ignore choose others. A column holds text if one of its cells is no number, as hashes are. A row on one
-side alone counts under the side that lacks it. Lines that begin with # are notes above the header, and
-rows below it. A file must be a regular one, and a row has at most 1 MiB.
+tick by t, and without t by the number of the row. Those of `regatta trace --impacts` match by n, lane and
+body. --key names other columns, such as frame,object; one called frame or step then counts ticks. Diff
+compares all columns but these, t and method; --columns and --ignore choose others. A column holds text
+if one of its cells is no number, as hashes are. A row on one side alone counts under the side that lacks
+it. Lines that begin with # are notes above the header, and rows below it. A file must be a regular one,
+and a row has at most 1 MiB.
 
 Numbers must be equal to the bit, unless --ulps or --relative allows more. NaN equals NaN, and -0 equals 0.
 A difference reaches 1e-12 at the first tick where it is that fraction of the largest value so far in this
@@ -164,8 +165,9 @@ fn report_text(found: &Comparison, a: &Path, b: &Path) -> String {
                 lines.push(by_column(found, first.tick_name.as_deref()));
             }
             let reached = LEVELS.iter().zip(found.reaches);
-            let reached =
-                reached.filter_map(|(level, tick)| Some(format!("{level:e} at tick {}", tick?)));
+            let moment = first.tick_name.as_deref().unwrap_or("row");
+            let reached = reached
+                .filter_map(|(level, tick)| Some(format!("{level:e} at {moment} {}", tick?)));
             let reached: Vec<String> = reached.collect();
             if !reached.is_empty() {
                 lines.push(format!("the difference reaches {}", reached.join(", ")));

@@ -8,7 +8,7 @@ use super::experiment_args::{ExperimentArgs, TickArgs};
 use super::help::flowing;
 use super::output::{print, print_json};
 use super::terminal::print_status;
-use super::trace::TruthAccuracy;
+use super::trace::{LOST, TruthAccuracy};
 use crate::run::race::Mode;
 use crate::scene::Scene;
 use crate::studio::Studio;
@@ -110,6 +110,8 @@ const ROUNDING: [f64; 2] = [1e-12, 1e-6];
 struct States {
     rows: Vec<(u64, Vec<f64>, Vec<f64>)>,
     reached: TruthAccuracy,
+    /// The tick from which the truth is not known.
+    is_lost_at: Option<u64>,
 }
 
 pub(super) fn run(args: &FixtureArgs) -> Result<(), Error> {
@@ -136,6 +138,9 @@ pub(super) fn run(args: &FixtureArgs) -> Result<(), Error> {
                 "the states of {name} end at tick {}: it {}",
                 halt.tick, halt.failure
             )),
+            None if let Some(tick) = states.is_lost_at => print_status(&format!(
+                "the states of {name} end at tick {tick}: no more is known of them than {LOST:e} of the largest"
+            )),
             None if error.is_finite() => {}
             None => {
                 return Err(Error::failed(format!(
@@ -160,10 +165,15 @@ pub(super) fn run(args: &FixtureArgs) -> Result<(), Error> {
 fn note(states: &mut [States], studio: &Studio, args: &FixtureArgs) {
     let tick = studio.race().tick();
     for (states, body) in states.iter_mut().zip(studio.race().truth().bodies()) {
-        if body.halted().is_some() {
+        if body.halted().is_some() || states.is_lost_at.is_some() {
             continue;
         }
+        let before = states.reached;
         states.reached.note(body);
+        if states.reached.is_lost() {
+            (states.reached, states.is_lost_at) = (before, Some(tick));
+            continue;
+        }
         if tick.is_multiple_of(args.ticks.every) {
             states.rows.push((tick, body.stepper.q().to_vec(), body.stepper.v().to_vec()));
         }

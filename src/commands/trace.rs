@@ -76,10 +76,12 @@ pub(super) fn run(args: &TraceArgs) -> Result<(), Error> {
     let mut reached = vec![TruthAccuracy::default(); experiment.scene.bodies.len()];
     while studio.race().tick() < last {
         studio.tick();
-        reached
-            .iter_mut()
-            .zip(studio.race().truth().bodies())
-            .for_each(|(it, truth)| it.note(truth));
+        for (it, truth) in reached.iter_mut().zip(studio.race().truth().bodies()) {
+            it.note(truth);
+            if it.lost_at_s.is_none() && it.is_lost() {
+                it.lost_at_s = Some(studio.race().t());
+            }
+        }
         trace.tick(&studio, studio.race().tick() == last)?;
         halts.note(&studio);
     }
@@ -168,11 +170,16 @@ impl<'a> Trace<'a> {
     }
 }
 
+/// Error of a truth, in parts of its largest value, beyond which it is none.
+pub(super) const LOST: f64 = 1e-3;
+
 /// The accuracy of a body's truth during a run: the largest coordinate and velocity, and their errors.
 #[derive(Clone, Copy, Default)]
 pub(super) struct TruthAccuracy {
     pub(super) largest: [f64; 2],
     error: [f64; 2],
+    /// The time in seconds from which it is not known.
+    lost_at_s: Option<f64>,
 }
 
 impl TruthAccuracy {
@@ -184,6 +191,11 @@ impl TruthAccuracy {
         self.largest[1] = most(self.largest[1], truth.stepper.v());
         let error = truth.stepper.truth_error().unwrap_or([f64::INFINITY; 2]);
         self.error = [0, 1].map(|i: usize| self.error[i].max(error[i]));
+    }
+
+    /// Whether the truth was not known at a moment, though its error was.
+    pub(super) fn is_lost(&self) -> bool {
+        self.relative().is_finite() && self.relative() > LOST
     }
 
     /// Returns the larger of the two relative errors. An error of 0 stays 0, even for a body that does not move.
@@ -214,6 +226,9 @@ fn print_accuracy(
         };
         let id = truth.truth().id();
         let came = match reached.relative() {
+            error if let Some(at_s) = reached.lost_at_s => {
+                format!("reached {error:.1e} on this run: from {at_s:.3} s on it is no truth")
+            }
             error if error.is_finite() => format!("reached {error:.1e} on this run"),
             _ => "reached an unknown accuracy".into(),
         };

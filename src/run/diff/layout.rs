@@ -103,6 +103,9 @@ pub(super) const NAMES: [&str; 3] = ["lane", "body", "coordinate"];
 const TICKS: [&str; 3] = ["tick", "frame", "step"];
 /// Name of the column of the coordinate. If it exists, no other column counts as motion.
 const COORDINATE: &str = "q";
+/// Columns that only a table of impacts has, and those by which its rows are matched: two rules land at other times.
+const OF_IMPACTS: [&str; 3] = ["n", "impact", "apex_after"];
+const KEY_OF_IMPACTS: [&str; 3] = ["n", "lane", "body"];
 
 /// The order of the rows.
 enum Order {
@@ -182,6 +185,11 @@ impl ColumnLayout {
             }
         };
         let Chosen { key, tick, columns, ignored } = chosen;
+        let is_of_impacts = OF_IMPACTS.iter().all(|name| matches!(find(name), [Some(_), Some(_)]));
+        let key = match key.is_empty() && tick.is_none() && is_of_impacts {
+            true => &KEY_OF_IMPACTS.map(str::to_owned).to_vec(),
+            false => key,
+        };
         if let Some(column) = ignored.iter().find(|name| find(name) == [None, None]) {
             return Err(absent(0, column));
         }

@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 use std::fs;
 use std::io::{BufRead, BufReader, Read};
+use std::path::Path;
 use std::process::Stdio;
 
 use regatta::scene::Scene;
@@ -408,4 +409,32 @@ fn a_full_disk_is_an_error() {
         let said = stderr(&output);
         assert!(said.starts_with("error: cannot write to standard output: No space"), "{said}");
     }
+}
+
+#[test]
+fn a_fixture_ends_where_the_truth_is_no_longer_known() {
+    let output = run_in(Path::new("."), "fixture --scene paddle --as json");
+    let fixture: Value = serde_json::from_slice(&output.stdout).unwrap();
+    let least = fixture["least_tolerance"].as_f64().unwrap();
+    let last = fixture["bodies"][0]["states"].as_array().unwrap().last().unwrap()[0].as_u64();
+    assert!(
+        (1e-9..1e-3).contains(&least) && (240..600).contains(&last.unwrap()),
+        "{least} {last:?}"
+    );
+    assert!(stderr(&output).contains(&format!("end at tick {}", last.unwrap() + 1)));
+    let output = run_in(Path::new("."), "trace --scene paddle --method rk4 --every 1000");
+    assert!(stderr(&output).contains(" s on it is no truth"), "{}", stderr(&output));
+}
+
+#[test]
+fn impacts_of_two_rules_are_compared_by_their_numbers() {
+    let folder = tempfile::tempdir().unwrap();
+    for rule in ["clamp", "mirror"] {
+        let asked =
+            format!("trace --scene ball --seconds 2 --method rk4 --impact {rule} --impacts");
+        fs::write(folder.path().join(rule), run_in(folder.path(), &asked).stdout).unwrap();
+    }
+    let found = String::from_utf8(run_in(folder.path(), "diff clamp mirror").stdout).unwrap();
+    assert!(found.contains("first at n 1, lane 1, ball: impact is clamp in a"), "{found}");
+    assert!(found.contains("reaches 1e-12 at row 2") && !found.contains("tick"), "{found}");
 }
