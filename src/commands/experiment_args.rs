@@ -93,7 +93,7 @@ impl ExperimentArgs {
         let refused =
             |lane: &LaneSpec| lane.impact.refusal(lane.method).or_else(|| of_law(lane.impact));
         if let Some(refusal) = lanes.find_map(refused) {
-            return Err(Error::mistake(format!("--impact: {refusal}")));
+            return Err(Error::mistake(format!("--impact: {refusal}; give another, or none")));
         }
         match scene.lanes.len() {
             0..=MAX_LANES => Ok(scene),

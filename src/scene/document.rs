@@ -301,10 +301,18 @@ fn read_lanes(
     }
 
     let key = if is_listed { METHOD_LIST.key } else { METHOD.key };
-    let wanted: Vec<_> = match is_given {
-        true => lanes.iter().map(|(span, lane)| (span.clone(), lane.impact)).collect(),
+    let of_all = top.has(IMPACT.key).then(|| top.span(IMPACT.key));
+    let mut wanted: Vec<_> = match is_given {
+        true => lanes
+            .iter()
+            .map(|(span, lane)| {
+                let of_all = of_all.clone().filter(|_| lane.impact == impact);
+                (of_all.unwrap_or_else(|| span.clone()), lane.impact)
+            })
+            .collect(),
         false => vec![(top.span(IMPACT.key), impact)],
     };
+    wanted.dedup();
     for (span, impact) in wanted {
         let mut kinds = bodies.iter().filter_map(|body| body.kind.as_ref());
         if let Some(refusal) = kinds.find_map(|kind| kind.impact_refusal(impact)) {

@@ -31,7 +31,7 @@ pub(super) fn answer(
     }
     let code = language.and_then(|language| match exact_code(scene, language) {
         Some(code) => Some(format!("In place of the step and the line after it:\n\n{code}")),
-        None => code(adviser, rows, language),
+        None => code(scene, adviser, rows, language),
     });
     if let Some(code) = code {
         text += &format!("\n{code}");
@@ -117,20 +117,29 @@ fn recommendations(scene: &Scene, adviser: &Adviser, rows: &[Row], wanted: usize
 }
 
 /// Returns the code of the recommended method, with the number of calls per tick.
-fn code(adviser: &Adviser, rows: &[Row], language: Language) -> Option<String> {
+fn code(scene: &Scene, adviser: &Adviser, rows: &[Row], language: Language) -> Option<String> {
     let (row, Recommendation { with: met, .. }) =
         recommended_row(rows, criterion_to_take(&advised(rows))?)?;
     let code = source_code(row.advised.spec.method, language, Precision::Double).ok()?;
     let steps = met.substeps;
     let hz = adviser.tick_hz().scaled(steps, 1);
     let times = if steps == 1 { "once".into() } else { format!("{steps} times") };
-    Some(format!("Call this {times} a tick with h = 1/{hz:.6} s:\n\n{code}"))
+    let has_walls = scene.bodies.iter().any(|body| body.kind.has_walls);
+    let falls = "It has no line for a floor or a wall, and falls through without one: `regatta list impacts`.\n";
+    let falls = if has_walls { falls } else { "" };
+    Some(format!("Call this {times} a tick with h = 1/{hz:.6} s:\n{falls}\n{code}"))
 }
 
 /// Explains why no method is recommended for a criterion.
 fn why_none(scene: &Scene, rows: &[Row], criterion: usize) -> String {
     if rows.iter().any(|row| row.advised.met[criterion] != CriterionResult::No) {
         return "not known: no exact motion to compare with, or too much work".into();
+    }
+    if scene.bodies.iter().all(|body| body.kind.has_walls) {
+        return format!(
+            "none of these with up to {MAX_ADVISED_SUBSTEPS} substeps; raise the tick rate, or take another rule \
+             for impacts"
+        );
     }
     let bodies = match &scene.bodies[..] {
         [body] => body.name.clone(),

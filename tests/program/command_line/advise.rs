@@ -510,4 +510,11 @@ fn advise_names_the_rule_of_a_ball_beside_the_scenes_own() {
     let said = run_in(folder.path(), "advise --scene ball --method mine.step").stdout;
     let said = String::from_utf8(said).unwrap();
     assert!(said.contains("; your mine at 60 Hz: dies away · bounces"), "{said}");
+    // Code without a line for the floor says so, and no remedy is about a stiffness.
+    let dragged =
+        "title = 'x'\ntick_hz = 60\nseconds = 5\n[[ball]]\nheight_m = 1\ndrag_per_s = 0.2\n";
+    fs::write(folder.path().join("dragged.toml"), dragged).unwrap();
+    let asked = "advise --scene dragged.toml --method velocity-verlet --impact clamp --as c";
+    let said = String::from_utf8(run_in(folder.path(), asked).stdout).unwrap();
+    assert!(said.contains("no line for a floor") && !said.contains("soften"), "{said}");
 }
