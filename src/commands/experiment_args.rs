@@ -93,7 +93,9 @@ impl ExperimentArgs {
         let refused =
             |lane: &LaneSpec| lane.impact.refusal(lane.method).or_else(|| of_law(lane.impact));
         if let Some(refusal) = lanes.find_map(refused) {
-            return Err(Error::mistake(format!("--impact: {refusal}; give another, or none")));
+            return Err(Error::mistake(format!(
+                "--impact: {refusal}; give another, or leave the option out"
+            )));
         }
         match scene.lanes.len() {
             0..=MAX_LANES => Ok(scene),

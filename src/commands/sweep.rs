@@ -185,7 +185,9 @@ impl SweepArgs {
         }
         if let Some(impact) = self.impact {
             if let Some(refusal) = self.methods.iter().find_map(|method| impact.refusal(method)) {
-                return Err(Error::mistake(format!("--impact: {refusal}; give another, or none")));
+                return Err(Error::mistake(format!(
+                    "--impact: {refusal}; give another, or leave the option out"
+                )));
             }
             let lanes = scenes.iter_mut().flat_map(|(_, scene)| &mut scene.lanes);
             lanes.for_each(|lane| *lane = lane.with_impact(impact));
