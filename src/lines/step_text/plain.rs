@@ -2,7 +2,7 @@
 //! `Mathf.Exp`.
 
 use super::paths::{Component, reduce};
-use crate::token::is_name_part;
+use crate::token::{is_name_part, is_name_start};
 
 /// Beginnings of lines of `assets/methods` that describe a method for people.
 const HEADINGS: [&str; 6] =
@@ -47,10 +47,16 @@ pub(super) fn plain(text: &str) -> (String, Vec<Component>) {
             b'/' if rest.starts_with(b"//") => blank(&mut plain, line_length(rest)),
             b'/' if rest.starts_with(b"/*") => {
                 let end = rest.windows(2).skip(2).position(|two| two == b"*/");
-                blank(&mut plain, end.map_or(rest.len(), |end| end + 4))
+                // A remark that is not closed stays, and is refused.
+                end.map_or(2, |end| blank(&mut plain, end + 4))
             }
             b'-' if is_remark_of_lua(text.as_bytes(), at) => blank(&mut plain, line_length(rest)),
             b'\r' => blank(&mut plain, 1),
+            // Lua's `x:lerp(target, part)`.
+            b':' if is_method_of_lua(&text[..at], &text[at + 1..]) => {
+                plain[at] = b'.';
+                1
+            }
             b'0'..=b'9' | b'.' => {
                 let (number, suffix) = number_length(rest);
                 plain[at + number..at + number + suffix].fill(b' ');
@@ -80,6 +86,16 @@ fn is_remark_of_lua(text: &[u8], at: usize) -> bool {
     text[at..].starts_with(b"--")
         && is_apart(at.checked_sub(1).map(|before| &text[before]))
         && (is_apart(text.get(at + 2)) || matches!(text[at + 2], b'-' | b'['))
+}
+
+/// Whether a colon between these texts stands before a method, rather than in `c ? a : b`.
+fn is_method_of_lua(before: &str, after: &str) -> bool {
+    let statement = before.rfind(['\n', ';', '{', '}']).map_or(before, |end| &before[end..]);
+    let name = after.bytes().take_while(|byte| is_name_part(*byte)).count();
+    before.ends_with(|c: char| c.is_ascii_alphanumeric() || "_)]".contains(c))
+        && after.starts_with(is_name_start)
+        && after[name..].starts_with('(')
+        && !statement.contains('?')
 }
 
 fn line_length(rest: &[u8]) -> usize {
@@ -129,9 +145,11 @@ mod tests {
             ("x = 4e-15|2e-6 * v", "x = 4e-15      * v"),
             (".", "."),
             ("1e", "1e"),
-            ("/*", "  "),
+            ("/*", "/*"),
             ("-- all\nx = -v -- x\n--", "      \nx = -v     \n  "),
             ("x = x --v", "x = x --v"),
+            ("x = x:Lerp(1) + (v):abs()", "x = x.Lerp(1) + (v).abs()"),
+            ("x = v ? x:abs(v) : 1", "x = v ? x:abs(v) : 1"),
         ] {
             assert_eq!(plain(written).0, read, "{written}");
             assert_eq!(plain(written).0.len(), written.len());

@@ -1,9 +1,14 @@
 //! The statements of a step, with their positions in the text.
 
+use std::collections::VecDeque;
 use std::ops::Range;
+
+use blocks::Ends;
 
 use crate::fault::{Parsed, fault, quoted};
 use crate::token::{is_name_part, is_name_start};
+
+mod blocks;
 
 /// A statement with the byte ranges of its parts.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -72,8 +77,10 @@ impl Statement {
 }
 
 /// Words that declare a number in some language.
-const DECLARERS: [&str; 11] =
-    ["let", "var", "const", "float", "double", "auto", "local", "mut", "final", "static", "count"];
+const DECLARERS: [&str; 14] = [
+    "let", "var", "const", "float", "double", "auto", "local", "mut", "final", "static", "count",
+    "val", "Vector2", "Vector3",
+];
 
 /// Words that begin a line which no step can have, each with a remedy.
 const REFUSED: [(&str, &str); 5] = [
@@ -104,7 +111,10 @@ fn begins_word(text: &str, at: usize, words: &[&str]) -> bool {
 
 /// Returns the statements of a text whose remarks are blank. `source` is the text with them.
 pub(super) fn statements(text: &str, source: &str) -> Parsed<Vec<Statement>> {
-    let mut reader = Reader { text, at: 0, worded: Vec::new() };
+    if let Some(at) = text.find("/*") {
+        return fault(at..at + 2, "the remark is not closed", "write `*/` at its end");
+    }
+    let mut reader = Reader { text, at: 0, blocks: Vec::new(), read: VecDeque::new() };
     let mut statements = Vec::new();
     loop {
         let before = reader.at;
@@ -142,8 +152,10 @@ fn add_remarks(statements: &mut Vec<Statement>, source: &str, between: Range<usi
 struct Reader<'t> {
     text: &'t str,
     at: usize,
-    /// For each open block, whether it begins with `then` and ends with `end`.
-    worded: Vec<bool>,
+    /// The end of each open block.
+    blocks: Vec<Ends>,
+    /// Statements of the last line that are still to be returned.
+    read: VecDeque<Statement>,
 }
 
 impl Reader<'_> {
@@ -164,43 +176,42 @@ impl Reader<'_> {
 
     fn next(&mut self) -> Parsed<Option<Statement>> {
         self.skip(|c| c.is_ascii_whitespace() || c == ';');
+        let ahead = self.read.pop_front();
+        let statement = match ahead {
+            None => match self.end_without_sign()? {
+                None => self.statement()?,
+                end => end,
+            },
+            ahead => ahead,
+        };
+        self.note_statement(statement.as_ref());
+        Ok(statement)
+    }
+
+    fn statement(&mut self) -> Parsed<Option<Statement>> {
         let start = self.at;
         match (self.rest().chars().next(), &self.text[self.name()]) {
             (None, _) => Ok(None),
             (Some('}'), _) => {
                 self.at += 1;
-                self.worded.pop();
+                self.blocks.pop();
                 let brace = start..self.at;
                 self.skip(|c| c.is_ascii_whitespace());
                 if &self.text[self.name()] != "else" {
                     self.at = brace.end;
                     return Ok(Some(Statement::End(brace)));
                 }
-                self.at = self.name().end;
-                self.skip(|c| c.is_ascii_whitespace());
-                let condition = match &self.text[self.name()] {
-                    "if" => Some(self.condition(self.name())?),
-                    _ => {
-                        let between = self.at..self.at;
-                        self.expect_open_brace(between)?;
-                        None
-                    }
-                };
-                Ok(Some(Statement::Else(condition, brace)))
+                self.other_case(brace, Ends::Brace).map(Some)
             }
             (_, "if") => Ok(Some(Statement::If(self.condition(self.name())?))),
             (_, word) if self.is_worded() && WORDS.contains(&word) => {
                 let word = self.name();
-                self.at = word.end;
-                self.worded.pop();
-                Ok(Some(match &self.text[word.clone()] {
-                    "end" => Statement::End(word),
-                    "else" => {
-                        self.worded.push(true);
-                        Statement::Else(None, word)
-                    }
-                    _ => Statement::Else(Some(self.condition(word.clone())?), word),
-                }))
+                self.blocks.pop();
+                if &self.text[word.clone()] == "end" {
+                    self.at = word.end;
+                    return Ok(Some(Statement::End(word)));
+                }
+                self.other_case(word, Ends::Word).map(Some)
             }
             (_, "while") => {
                 let word = self.name();
@@ -228,12 +239,12 @@ impl Reader<'_> {
                 "`else` follows no block",
                 "write `if condition { … } else { … }`",
             ),
-            _ => self.assignment().map(Some),
+            _ => self.assignments().map(Some),
         }
     }
 
     fn is_worded(&self) -> bool {
-        self.worded.last() == Some(&true)
+        self.blocks.last() == Some(&Ends::Word)
     }
 
     /// Whether a name follows the next name on its line.
@@ -282,38 +293,12 @@ impl Reader<'_> {
         };
         let inputs = self.at + 1..self.at + 1 + inside.len();
         self.at += head;
-        self.expect_open_brace(word)?;
+        self.open(word)?;
         Ok(Statement::Function { name, inputs })
     }
 
-    /// Returns the condition after this `if` or `while`, up to the brace or the `then` that opens its block.
-    fn condition(&mut self, word: Range<usize>) -> Parsed<Range<usize>> {
-        self.at = word.end;
-        let line = self.rest().find(['{', ';', '}']).unwrap_or(self.rest().len());
-        if let Some(then) = (0..line).find(|at| begins_word(self.rest(), *at, &["then"])) {
-            let condition = self.at..self.at + then;
-            self.at = condition.end + "then".len();
-            self.worded.push(true);
-            return Ok(condition);
-        }
-        let length = self.rest().find(['{', ';', '}']).unwrap_or(self.rest().len());
-        let condition = self.at..self.at + length;
-        self.at = condition.end;
-        self.expect_open_brace(word)?;
-        Ok(condition)
-    }
-
-    /// Consumes the brace that opens a block.
-    fn expect_open_brace(&mut self, word: Range<usize>) -> Parsed<()> {
-        if !self.rest().starts_with('{') {
-            return fault(word, "no `{` opens the block", "write `if condition { … }`");
-        }
-        self.at += 1;
-        self.worded.push(false);
-        Ok(())
-    }
-
-    /// Returns the end of the statement, which is at `;`, at a brace, or at the end of a line that does not continue.
+    /// Returns the end of the statement, which is at `;`, at a brace, at a comma outside brackets, or at the end of a
+    /// line that does not continue.
     fn end(&self) -> usize {
         let mut depth = 0_i32;
         for (at, sign) in self.rest().char_indices() {
@@ -321,6 +306,7 @@ impl Reader<'_> {
                 '(' | '[' => depth += 1,
                 ')' | ']' => depth -= 1,
                 ';' | '{' | '}' => return self.at + at,
+                ',' if depth <= 0 => return self.at + at,
                 _ if self.is_worded() && begins_word(self.rest(), at, &WORDS) => {
                     return self.at + at;
                 }
@@ -335,10 +321,10 @@ impl Reader<'_> {
         self.text.len()
     }
 
-    fn assignment(&mut self) -> Parsed<Statement> {
+    /// Reads an assignment, which `declares` its name as the one before on the same line does.
+    fn assignment(&mut self, mut declares: Option<Declares>) -> Parsed<Statement> {
         let (start, end) = (self.at, self.end());
         let whole = |reader: &Self| start..end.max(reader.at).max(start + 1).min(reader.text.len());
-        let mut declares = None;
         let mut name = self.name();
         if let Some((word, remedy)) =
             REFUSED.iter().find(|(word, _)| *word == &self.text[name.clone()])
@@ -372,6 +358,9 @@ impl Reader<'_> {
             self.skip(|c| c == ' ' || c == '\t');
             self.at = self.name().end;
             self.skip(|c| c == ' ' || c == '\t');
+        }
+        if self.rest().starts_with(',') {
+            return self.several(name, declares);
         }
         let mut index = None;
         if self.rest().starts_with('[') {
@@ -433,7 +422,7 @@ const ONE_NUMBER: &str =
 
 /// Whether a statement continues after the end of a line.
 fn continues_on_next_line(before: &str, after: &str) -> bool {
-    let is_operator = |sign: char| "+-*/^=<>".contains(sign);
+    let is_operator = |sign: char| "+-*/^=<>?:&|%".contains(sign);
     let (before, after) = (before.trim_end(), after.trim_start());
     let is_word = |word: &str| {
         let rest = after.strip_prefix(word);
@@ -517,6 +506,27 @@ mod tests {
         let found = ["memory past[4] = 0", "past[i + 1] = past[i]", "tick floor(n) of dt"];
         assert_eq!(read(text)[..3], found);
         assert_eq!(read(text)[3..], ["tick 1 of H", "show owed / H"]);
+        let text = "if x < 1:\n  x = 1\n\n  if v > 1: v = 0; x = 2\nelif x > 3:\n\tx = 3\nelse:\n  v = 1\nx += v";
+        let found =
+            ["if x < 1", "x = 1", "", "if v > 1", "v = 0", "x = 2", "end", "else x > 3", "x = 3"];
+        assert_eq!(read(text)[..9], found);
+        assert_eq!(read(text)[9..], ["else ", "v = 1", "end", "x += v"]);
+        let text =
+            "if (x < (1)) x = 1, v = 2; else if (v > 1)\n  if (x > 2) v = 1\n  else v = 3;\nx += v";
+        let found = [
+            "if (x < (1))",
+            "x = 1",
+            "v = 2",
+            "else (v > 1)",
+            "if (x > 2)",
+            "v = 1",
+            "else ",
+            "v = 3",
+        ];
+        assert_eq!(read(text)[..8], found);
+        assert_eq!(read(text)[8..], ["end", "end", "x += v"]);
+        let found = ["Number a = min(1, 2)", "Number b = 3", "Number c = 4", "Number d = 5"];
+        assert_eq!(read("float a = min(1, 2), b = 3;\nlocal c, d = 4, 5"), found);
         let text = "// One.\n\n\nx += v # two\n  #three\nv *= 2 /* four */\n# five\n";
         let found = ["# One.", "", "x += v", "# three", "v *= 2", "# five"];
         assert_eq!(read(text), found);
@@ -541,7 +551,11 @@ mod tests {
             ("let", 0..3),
             ("def x", 0..3),
             ("3", 0..1),
-            ("if x > 1 { x = 1 } else x = 2", 24..24),
+            ("x, v = v", 0..5),
+            ("x, v = v, x", 9..11),
+            ("if x > 1 { x = 1 } else", 19..23),
+            ("if (x > 1) 2", 0..2),
+            ("if x > 1", 0..2),
         ] {
             assert_eq!(statements(text, text).unwrap_err().span, at, "{text}");
         }
