@@ -252,8 +252,34 @@ impl Parser<'_> {
         read
     }
 
+    /// Reads an expression, which in a step may choose: `c ? a : b`, or `a if c else b`.
     fn any(&mut self) -> Parsed<usize> {
-        self.operation(None)
+        let value = self.operation(None)?;
+        if self.consume_if("?") {
+            let first = self.nested(Self::any)?;
+            self.expect(":", "the first of two values")?;
+            let second = self.nested(Self::any)?;
+            return self.choice(value, first, second);
+        }
+        if !self.scope.is_step() || self.sign() != "if" {
+            return Ok(value);
+        }
+        self.next += 1;
+        let condition = self.nested(|parser| parser.operation(None))?;
+        if self.sign() != "else" {
+            return fault(self.here(), "`else` is missing", "write `a if c else b`");
+        }
+        self.next += 1;
+        let second = self.nested(Self::any)?;
+        self.choice(condition, value, second)
+    }
+
+    fn choice(&mut self, condition: usize, first: usize, second: usize) -> Parsed<usize> {
+        let all =
+            [self.want_truth(condition)?, self.want_number(first)?, self.want_number(second)?];
+        let starts = all.map(|node| self.span_of(node).start);
+        let start = starts.into_iter().fold(usize::MAX, usize::min);
+        Ok(self.push(Op::If, &all, start..self.span_of(second).end))
     }
 
     /// Reads operands joined by operators that bind more tightly than the level `outside`.
@@ -264,8 +290,16 @@ impl Parser<'_> {
                 left = self.raised(left)?;
                 continue;
             }
+            let is_word = self.peek() == Token::Name && self.scope.is_step();
             self.next += 1;
             let right = self.operation(Some(infix.level))?;
+            // Lua's choice: `c and a or b`.
+            if is_word && infix.op == Op::And && !self.is_truth(right) && self.sign() == "or" {
+                self.next += 1;
+                let other = self.operation(Some(Level::Or))?;
+                left = self.choice(left, right, other)?;
+                continue;
+            }
             if infix.op == REMAINDER.op {
                 let operands = [self.want_number(left)?, self.want_number(right)?];
                 let span = self.span_of(left).start..self.span_of(right).end;

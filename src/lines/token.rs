@@ -42,7 +42,7 @@ const FOREIGN: [(&str, &str); 11] = [
 ];
 
 /// Signs of other notations that step lines have too, each with our symbol.
-const STEP_SIGNS: [(&str, &str); 9] = [
+const STEP_SIGNS: [(&str, &str); 11] = [
     ("**", "^"),
     ("&&", "and"),
     ("||", "or"),
@@ -52,6 +52,8 @@ const STEP_SIGNS: [(&str, &str); 9] = [
     ("×", "*"),
     ("÷", "/"),
     ("!", "not"),
+    ("?", "?"),
+    (":", ":"),
 ];
 
 /// Returns the tokens of `text` with their byte ranges. The last token is [`Token::End`]. Only a step has methods and
@@ -88,7 +90,6 @@ pub(super) fn tokens(text: &str, is_step: bool) -> Parsed<Vec<(Token, Range<usiz
             let what = format!("`{}` cannot be in an expression", first.escape_debug());
             let remedy = match first {
                 '?' => "write `if(c, a, b)` for `c ? a : b`",
-                ':' => "remove it, or write `lerp(x, target, t)` for `x:lerp(target, t)`",
                 _ => "remove it",
             };
             return fault(at..at + first.len_utf8(), what, remedy);

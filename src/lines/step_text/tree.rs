@@ -162,10 +162,8 @@ impl StepText {
         values.find_map(|expression| {
             let mut sizes: Vec<usize> = Vec::with_capacity(expression.nodes.len());
             for node in &expression.nodes {
-                if node.op == Op::If || node.op.is_table() {
-                    return Some(
-                        "`if(…)` and `table(…)` have no words there; write blocks of `if`",
-                    );
+                if node.op.is_table() {
+                    return Some("`table(…)` has no words there; write blocks of `if`");
                 }
                 let operands = node.arguments().iter().map(|operand| sizes[*operand]);
                 sizes.push(operands.fold(1, usize::saturating_add));
@@ -393,6 +391,7 @@ impl<'t> StepBody<'t> {
                 Operation::Call { function: "is_nan", arguments: &operands[..1] }
             }
             Op::Power => Operation::Call { function: "pow", arguments: operands },
+            Op::If => Operation::Call { function: "if", arguments: operands },
             op => {
                 // The reader turns `a > b` into `b < a`.
                 let is_swapped = op.is_truth() && spans[0].start > spans[1].start;

@@ -178,8 +178,8 @@ pub(super) struct Dialect {
     pub(super) function_name: fn(&str, &str) -> String,
     /// Functions of the language of steps that the language lacks.
     pub(super) written_out: &'static [&'static str],
-    /// Words that are spelt differently from the sources, each with its spelling. In an operator, `{a}` and `{b}` are
-    /// the arguments of the function.
+    /// Words that are spelt differently from the sources, each with its spelling. In an operator, `{a}`, `{b}` and
+    /// `{c}` are the arguments of the function.
     pub(super) words: &'static [(&'static str, &'static str)],
     /// Names that mean something else in the language, or in the code around the lines, between blanks.
     pub(super) reserved: &'static str,
@@ -244,6 +244,7 @@ const RUST: Dialect = Dialect {
     function_name: |method, name| format!("{method}_{name}"),
     written_out: &ALL_LACK,
     words: &[
+        ("if", "(if {a} { {b} } else { {c} })"),
         ("and", "&&"),
         ("or", "||"),
         ("nan", "TYPE::NAN"),
@@ -292,6 +293,7 @@ const C: Dialect = Dialect {
     if_block: "if (VALUE) {",
     while_block: "while (VALUE) {",
     words: &[
+        ("if", "({a} ? {b} : {c})"),
         ("and", "&&"),
         ("or", "||"),
         ("nan", "NAN"),
@@ -344,6 +346,7 @@ const C_SHARP: Dialect = Dialect {
     spelt: c_sharp_name,
     function_name: |_, name| pascal(name),
     words: &[
+        ("if", "({a} ? {b} : {c})"),
         ("and", "&&"),
         ("or", "||"),
         ("nan", "TYPE.NaN"),
@@ -401,7 +404,14 @@ const GD_SCRIPT: Dialect = Dialect {
     index: "int(VALUE)",
     call: ".call",
     reference: "",
-    words: &[("nan", "NAN"), ("abs", "absf"), ("min", "minf"), ("max", "maxf"), ("ln", "log")],
+    words: &[
+        ("if", "({b} if {a} else {c})"),
+        ("nan", "NAN"),
+        ("abs", "absf"),
+        ("min", "minf"),
+        ("max", "maxf"),
+        ("ln", "log"),
+    ],
     reserved: "and as assert await bool break breakpoint class class_name const continue elif else enum extends false float \
                for func if in int is match namespace not null or pass preload return self signal static super trait true \
                var void when while yield PI TAU INF NAN absf maxf minf log sqrt exp pow ceil floor sin cos tan asin acos \
@@ -428,6 +438,7 @@ const JAVA_SCRIPT: Dialect = Dialect {
     spelt: camel,
     function_name: |method, name| camel(&format!("{method}_{name}")),
     words: &[
+        ("if", "({a} ? {b} : {c})"),
         ("and", "&&"),
         ("or", "||"),
         ("not", "!"),
@@ -484,6 +495,7 @@ const LUA: Dialect = Dialect {
     is_compound: false,
     written_out: &["sign", "step", "round", "hypot", "sinh", "cosh", "tanh"],
     words: &[
+        ("if", "(({a}) and {b} or {c})"),
         ("!=", "~="),
         ("nan", "(0 / 0)"),
         ("is_nan", "({a} ~= {a})"),

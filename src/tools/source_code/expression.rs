@@ -237,13 +237,15 @@ impl<'t> Names<'t> {
                     let word = self.word(function);
                     let text = if word.contains("{a}") {
                         let of = |n: usize| match all.get(n) {
+                            // A choice has brackets of its own.
+                            Some(at) if function == "if" => operand(*at, None, false),
                             Some(at) if written[*at].0.starts_with('-') => {
                                 format!("({})", written[*at].0)
                             }
                             Some(at) => operand(*at, Some(Level::Power), true),
                             None => String::new(),
                         };
-                        word.replace("{a}", &of(0)).replace("{b}", &of(1))
+                        word.replace("{a}", &of(0)).replace("{b}", &of(1)).replace("{c}", &of(2))
                     } else {
                         let is_own = dialect.writes_out(function);
                         let name = if is_own { self.function(function) } else { word };
