@@ -125,7 +125,7 @@ pub(super) static FUNCTIONS: [Function; 21] = [
 ];
 
 /// The functions of step lines that laws do not have.
-pub(super) static STEP_FUNCTIONS: [Function; 36] = [
+pub(super) static STEP_FUNCTIONS: [Function; 32] = [
     written("lerp", &["a", "b", "part"], "a + (b - a) * part"),
     function("pow", &["base", "exponent"], Meaning::Power),
     // Halves go away from 0.
@@ -145,14 +145,22 @@ pub(super) static STEP_FUNCTIONS: [Function; 36] = [
     written("smoothstep", &["low", "high", "x"], "eased(clamp01((x - low) / (high - low)))"),
     // Unity's, which goes from one value to another.
     written("smoothStep", &["from", "to", "part"], "lerp(from, to, eased(clamp01(part)))"),
-    written("eased", &["x"], "x * x * (3 - 2 * x)"),
     written("inverse_lerp", &["a", "b", "x"], "(x - a) / (b - a)"),
     written("move_toward", &["from", "to", "by"], "clamp(to, from - by, from + by)"),
-    written("angle_to", &["from", "to", "half"], "mod(to - from + half, 2 * half) - half"),
     written("lerp_angle", &["from", "to", "part"], "from + angle_to(from, to, pi) * part"),
     // Unity's are in degrees.
     written("lerpAngle", &["from", "to", "part"], "from + angle_to(from, to, 180) * part"),
     written("deltaAngle", &["from", "to"], "angle_to(from, to, 180)"),
+    // Godot's and Phaser's are in radians.
+    written("angle_difference", &["from", "to"], "angle_to(from, to, pi)"),
+    written(
+        "rotate_toward",
+        &["from", "to", "by"],
+        "from + clamp(angle_to(from, to, pi), -by, by)",
+    ),
+    written("wrap", &["x"], "wrap(x, -pi, pi)"),
+    // three.js'.
+    written("damp", &["x", "to", "rate", "dt"], "lerp(x, to, 1 - exp(-rate * dt))"),
     // Unreal's.
     written("fInterpTo", &["x", "to", "dt", "speed"], "x + (to - x) * clamp(dt * speed, 0, 1)"),
     written("fInterpConstantTo", &["x", "to", "dt", "speed"], "move_toward(x, to, dt * speed)"),
@@ -168,6 +176,13 @@ pub(super) static STEP_FUNCTIONS: [Function; 36] = [
         &["x", "to", "v", "time", "most", "dt"],
         "dampedTo(x, x - clamp((x - to) / time, -most, most) * time, v, time, dt)",
     ),
+    function("is_nan", &["x"], Meaning::IsNan),
+];
+
+/// Functions of which those of step lines are made, and which no line calls.
+static PARTS: [Function; 8] = [
+    written("eased", &["x"], "x * x * (3 - 2 * x)"),
+    written("angle_to", &["from", "to", "half"], "mod(to - from + half, 2 * half) - half"),
     written(
         "dampedTo",
         &["x", "to", "v", "time", "dt"],
@@ -190,13 +205,13 @@ pub(super) static STEP_FUNCTIONS: [Function; 36] = [
         &["x", "to", "v", "time", "dt"],
         "(v - 2 / time * (v + 2 / time * (x - to)) * dt) * damped(2 / time * dt)",
     ),
-    function("is_nan", &["x"], Meaning::IsNan),
 ];
 
 /// Names from other languages, each with our name. Capitals and underscores in a call do not matter.
-const ALIASES: [(&str, &str); 36] = [
+const ALIASES: [(&str, &str); 40] = [
     ("mix", "lerp"),
     ("lerpf", "lerp"),
+    ("linear", "lerp"),
     ("lerpUnclamped", "lerp"),
     ("lerpClamped", "lerp"),
     ("powf", "pow"),
@@ -217,6 +232,7 @@ const ALIASES: [(&str, &str); 36] = [
     ("fmaxf", "max"),
     ("maxf", "max"),
     ("clampf", "clamp"),
+    ("constrain", "clamp"),
     ("saturate", "clamp01"),
     ("expf", "exp"),
     ("sqrtf", "sqrt"),
@@ -229,6 +245,8 @@ const ALIASES: [(&str, &str); 36] = [
     ("frac", "fract"),
     ("wrapf", "wrap"),
     ("moveTowards", "move_toward"),
+    ("rotateTo", "rotate_toward"),
+    ("vInterpTo", "fInterpTo"),
     ("approach", "move_toward"),
     ("inverseLerpf", "inverse_lerp"),
 ];
@@ -290,13 +308,20 @@ impl Function {
         Self::rows_in_steps(name).next()
     }
 
-    /// Returns the function of this name in step lines that takes this number of arguments.
-    pub(super) fn with_arguments(name: &str, count: usize) -> Option<&'static Self> {
-        Self::rows_in_steps(name).find(|function| function.arguments.len() == count)
+    /// Returns the function of this name in the functions of step lines.
+    pub(super) fn named_in_functions(name: &str) -> Option<&'static Self> {
+        let part = PARTS.iter().find(|function| function.name == name);
+        part.or_else(|| Self::named_in_steps(name))
     }
 
-    /// Whether no number of a step can have this name.
-    pub(super) fn is_reserved(name: &str) -> bool {
+    /// Returns the function of this name in step lines that takes this number of arguments.
+    pub(super) fn with_arguments(name: &str, count: usize) -> Option<&'static Self> {
+        let parts = PARTS.iter().filter(|function| function.name == name);
+        parts.chain(Self::rows_in_steps(name)).find(|function| function.arguments.len() == count)
+    }
+
+    /// Whether printed code may call the function of this name.
+    pub(super) fn is_printed(name: &str) -> bool {
         FUNCTIONS.iter().chain(&STEP_FUNCTIONS[..2]).any(|function| function.name == name)
     }
 

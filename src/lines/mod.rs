@@ -63,6 +63,11 @@ pub fn is_name(name: &str) -> bool {
     name.starts_with(token::is_name_start) && name.chars().all(is_part)
 }
 
+/// Whether this is the name of a function that the code of other languages may call.
+pub fn is_function(name: &str) -> bool {
+    Function::is_printed(name)
+}
+
 /// Whether this name has a meaning in every expression.
 pub fn is_reserved(name: &str) -> bool {
     op::is_word(name) || Function::named(name).is_some()

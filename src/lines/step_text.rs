@@ -29,6 +29,7 @@ mod frames;
 mod loop_tree;
 mod map;
 mod method;
+mod names;
 mod paths;
 mod plain;
 mod reader;
@@ -48,46 +49,6 @@ const V: usize = 1;
 const H: usize = 2;
 const TARGET: usize = 3;
 const BUILT_IN: [&str; 4] = ["x", "v", "h", "target"];
-
-/// Other names of the length of a step.
-const STEP_NAMES: [&str; 13] = [
-    "dt",
-    "delta",
-    "deltaTime",
-    "delta_time",
-    "delta_seconds",
-    "DeltaTime",
-    "fixedDeltaTime",
-    "deltaSeconds",
-    "DeltaSeconds",
-    "delta_secs",
-    "delta_secs_f64",
-    "getDelta",
-    "elapsed",
-];
-
-/// The place of another body, which the lines draw theirs to. No person writes this name.
-const OTHER_PLACE: &str = "__";
-
-/// Names that games use for `x`, `v` and `target`. One is valid unless the text uses the original, or an earlier one.
-const OTHER_NAMES: [(usize, &[&str]); 3] = [
-    (X, &["pos", "position", "value", "current"]),
-    (V, &["velocity", "vel", "speed", "vx", "velX", "vel_x", "hsp", "hspeed", "vspeed"]),
-    (
-        TARGET,
-        &[
-            "goal",
-            "desired",
-            "targetPos",
-            "target_pos",
-            "targetPosition",
-            "target_position",
-            "targetX",
-            "target_x",
-            OTHER_PLACE,
-        ],
-    ),
-];
 
 /// A line, with its names as indices among the inputs.
 #[derive(Debug)]
@@ -218,8 +179,9 @@ impl StepText {
     }
 
     fn read_lines(text: &str, method_at: Option<Range<usize>>) -> Result<Self, ExpressionFault> {
-        let (plain, components) = plain(text);
-        let (statements, left_out) = of_one_component(statements(&plain, text)?, &components)?;
+        let (mut plain, components) = plain(text);
+        let all = statements(&plain, text)?;
+        let (statements, left_out) = of_one_component(&mut plain, all, &components)?;
         let read = Reader::read(&plain, method_at, &statements)?;
         Ok(Self { source: text.to_owned(), left_out, ..read }.timed())
     }
@@ -268,17 +230,23 @@ impl StepText {
 
     /// Returns, for each carried number, the indices of the carried numbers on which its next value depends.
     pub fn dependencies(&self) -> Vec<Vec<usize>> {
-        let mut sets = vec![0_u64; self.tape.slots];
-        (0..self.names.len()).for_each(|input| sets[input] = 1 << input);
-        for (_, operands, to, _) in self.tape.operations() {
-            sets[to as usize] = operands.iter().fold(0, |set, slot| set | sets[*slot as usize]);
-        }
+        let sets = self.inputs_of_slots();
         let of = |slot: &u16| {
             let set = sets[*slot as usize];
             let inputs = self.carried.iter().map(|carried| carried.input).enumerate();
             inputs.filter(|(_, input)| set >> input & 1 == 1).map(|(index, _)| index).collect()
         };
         self.tape.outputs.iter().map(of).collect()
+    }
+
+    /// Returns the set of inputs on which each slot of the tape depends, as bits.
+    fn inputs_of_slots(&self) -> Vec<u64> {
+        let mut sets = vec![0_u64; self.tape.slots];
+        (0..self.names.len()).for_each(|input| sets[input] = 1 << input);
+        for (_, operands, to, _) in self.tape.operations() {
+            sets[to as usize] = operands.iter().fold(0, |set, slot| set | sets[*slot as usize]);
+        }
+        sets
     }
 
     /// Returns the indices of these carried numbers and of all carried numbers on which they depend.
@@ -452,7 +420,7 @@ mod tests {
             ("x += (1", 6..7, "the text ends where `)` is missing"),
             ("let k = 2", 0..9, "no line assigns `x` or `v`"),
             ("target = 1", 0..6, "`target` is the goal of `x`, and no line may change it"),
-            ("let step = 1; x = step", 4..8, "`step` has a meaning of its own in expressions"),
+            ("let pi = 1; x = pi", 4..6, "`pi` has a meaning of its own in expressions"),
             ("x = k; let k = 1", 4..5, "unknown name `k`"),
             ("let k += 1; x = k", 4..5, "`k` has no value yet"),
             ("if x > 0 { x = 1", 15..16, "a block is not closed"),
@@ -462,6 +430,8 @@ mod tests {
             ("memory k = x; x = k", 10..12, "a memory starts as a finite number"),
             ("memory k = x + 1; x = k", 10..16, "a memory starts as a finite number"),
             ("x +=", 4..4, "the expression is empty"),
+            ("x = 1\n/* v", 6..8, "the remark is not closed"),
+            ("x = damped(1)", 4..10, "unknown function `damped`"),
             ("while x < 1 { x += 1 }", 0..5, "`while` cannot stand in a rule"),
             ("fail; x = 1", 0..4, "`fail` cannot stand in a rule"),
             ("qw = qw; let k = y", 17..18, "unknown name `y`"),

@@ -26,7 +26,7 @@ pub use regatta_lines::{
     Carried, Declares, Expression, ExpressionFault, FrameInput, FrameOutput, General, Input, Level,
     Line, LoopName, LoopText, MAX_BYTES, MAX_DEPTH, MAX_OPERATIONS, MAX_STEP_BYTES, MAX_SUBSTEPS,
     MethodInput, Operation, Remedy, Request, StepBody, StepCall, StepMap, StepRegisters, StepText,
-    SwitchKind, bracketed, functions, operators, values,
+    SwitchKind, bracketed, functions, is_function, operators, values,
 };
 pub(crate) use registers::LawLanes;
 pub use registers::Registers;

@@ -31,7 +31,7 @@ impl Scope for Arguments {
     }
 
     fn function(&self, name: &str) -> Option<&'static Function> {
-        Function::named_in_steps(name)
+        Function::named_in_functions(name)
     }
 
     fn overload(&self, name: &str, count: usize) -> Option<&'static Function> {

@@ -2,8 +2,9 @@
 
 use std::ops::Range;
 
+use super::names::{LONE_PLACES, OTHER_PLACE, STEP_NAMES, assigns, is_name_of};
 use super::statements::Statement;
-use super::{BUILT_IN, OTHER_NAMES, OTHER_PLACE, STEP_NAMES, TARGET, V, X};
+use super::{TARGET, V, X};
 use crate::fault::{ExpressionFault, fault};
 use crate::function::Function;
 use crate::token::is_name_part;
@@ -31,29 +32,30 @@ struct Bodies {
     own: Vec<String>,
     /// The body to whose place the lines draw theirs, if it is the only other one, and no line names a target.
     goal: Option<String>,
+    /// Whether the lines have no place but those of [`LONE_PLACES`].
+    is_lone: bool,
 }
 
 impl Bodies {
     fn of(text: &[u8], paths: &[Vec<Range<usize>>]) -> Self {
+        let whole = std::str::from_utf8(text).unwrap_or_default();
+        let all = || paths.iter().flat_map(|parts| names(text, parts));
+        let is_lone = !all().any(|name| is_name_of(X, &name));
         let (mut own, mut read) = (Vec::new(), Vec::new());
         let (mut has_target, mut has_place) = (false, false);
         for parts in paths {
-            let (names, after) = (names(text, parts), &text[parts[parts.len() - 1].end..]);
-            let is_call = after.trim_ascii_start().starts_with(b"(");
+            let (names, end) = (names(text, parts), parts[parts.len() - 1].end);
+            let after = whole.get(end..).unwrap_or_default();
+            let is_call = after.trim_start().starts_with('(');
             let values = &names[..names.len() - usize::from(is_call && names.len() > 1)];
             has_target |= values.iter().any(|name| is_name_of(TARGET, name));
-            let (value, _) = meant(values);
-            let is_place = is_name_of(X, &values[value]);
+            let (value, _) = meant(values, is_lone);
+            let is_place = is_place(&values[value], is_lone);
             if !is_place && !is_name_of(V, &values[value]) {
                 continue;
             }
             let owner = owner(&values[..value]);
-            let is_assigned = matches!(
-                after.trim_ascii_start(),
-                [b'=', rest @ ..] | [b'+' | b'-' | b'*' | b'/', b'=', rest @ ..]
-                    if rest.first() != Some(&b'=')
-            );
-            if is_assigned {
+            if assigns(after) {
                 own.push(owner);
                 has_place |= is_place;
             } else if is_place {
@@ -64,7 +66,7 @@ impl Bodies {
         has_place |= read.iter().any(|owner| own.contains(owner));
         let goal = others.next().filter(|first| others.all(|other| other == *first));
         let goal = goal.filter(|_| has_place && !has_target).cloned();
-        Self { own, goal }
+        Self { own, goal, is_lone }
     }
 
     /// Whether the body of these names is another than those that the lines move.
@@ -165,9 +167,9 @@ fn reduce_path(text: &mut [u8], parts: &[Range<usize>], bodies: &Bodies) -> Opti
         text[end + blanks..end + blanks + 2].fill(b' ');
     } else if !(is_namespace && is_call) {
         let values = &names[..parts.len() - usize::from(is_call)];
-        let (mut value, letter) = meant(values);
+        let (mut value, letter) = meant(values, bodies.is_lone);
         let of_body = owner(&values[..value]);
-        if is_name_of(X, &values[value]) && bodies.is_other(&of_body) {
+        if is_place(&values[value], bodies.is_lone) && bodies.is_other(&of_body) {
             // Without a place of their own the lines are not drawn to this one: it is a name without a value.
             value -= 1;
             goal_at = (bodies.goal.as_ref() == Some(&of_body)).then_some(value);
@@ -203,14 +205,12 @@ fn lower_name(plain: &mut [u8]) {
     name[..count].make_ascii_lowercase();
 }
 
-/// Whether a name may be one of the numbers of a step.
-fn is_name_of(index: usize, name: &str) -> bool {
-    let others = OTHER_NAMES.iter().find(|(other, _)| *other == index);
-    BUILT_IN[index] == name || others.is_some_and(|(_, names)| names.contains(&name))
+fn is_place(name: &str, is_lone: bool) -> bool {
+    is_name_of(X, name) || is_lone && LONE_PLACES.contains(&name)
 }
 
 /// Returns the index of the name that is a number of a step, and the letter of its component.
-fn meant(names: &[String]) -> (usize, Option<u8>) {
+fn meant(names: &[String], is_lone: bool) -> (usize, Option<u8>) {
     let last = names.len() - 1;
     let letter = match &*names[last].to_ascii_lowercase() {
         "x" => Some(b'x'),
@@ -223,9 +223,10 @@ fn meant(names: &[String]) -> (usize, Option<u8>) {
         return (target, letter_of(target));
     }
     let owner = last.checked_sub(1).filter(|_| letter.is_some());
-    match owner.filter(|owner| [X, V].iter().any(|index| is_name_of(*index, &names[*owner]))) {
+    let is_vector = |name: &str| is_place(name, is_lone) || is_name_of(V, name);
+    match owner.filter(|owner| is_vector(&names[*owner])) {
         Some(owner) => (owner, letter),
-        None => (last, None),
+        None => (last, letter.filter(|_| last > 0)),
     }
 }
 
@@ -249,23 +250,57 @@ pub(super) fn damped_velocity(text: &str, value: &Range<usize>) -> Option<Range<
 /// Unity's spring, which also assigns its velocity.
 pub(super) const SMOOTH_DAMP: &str = "smoothDamp";
 
-/// Returns the statements of the first component of the vectors of a text, and this component with the first other.
+/// Returns the number of statements of the first one with its blocks, and its byte range if it is an assignment or an
+/// `if`.
+fn whole(statements: &[Statement]) -> (usize, Range<usize>) {
+    match &statements[0] {
+        Statement::Assign { name, value, .. } => (1, name.start..value.end),
+        Statement::If(condition) => {
+            let mut depth = 0;
+            let ends = statements.iter().position(|statement| {
+                depth += statement.depth();
+                depth == 0
+            });
+            let last = ends.unwrap_or(statements.len() - 1);
+            let end = match &statements[last] {
+                Statement::End(end) => end.end,
+                _ => condition.end,
+            };
+            (last + 1, condition.start..end)
+        }
+        _ => (1, 0..0),
+    }
+}
+
+/// Returns the statements of the first assigned component of the vectors of a text, and it with the first other.
+/// Blanks the others in the text.
 pub(super) fn of_one_component(
+    text: &mut String,
     mut statements: Vec<Statement>,
     components: &[Component],
 ) -> Result<(Vec<Statement>, Option<[char; 2]>), ExpressionFault> {
-    let Some(first) = components.first() else { return Ok((statements, None)) };
+    let is_assigned = |component: &&Component| {
+        let begins = |it: &Statement| matches!(it, Statement::Assign { name, .. } if name.start == component.at);
+        statements.iter().any(begins)
+    };
+    let first = components.iter().find(is_assigned).or(components.first());
+    let Some(first) = first else { return Ok((statements, None)) };
     let is_other = |component: &&Component| component.letter != first.letter;
     let Some(other) = components.iter().find(is_other) else { return Ok((statements, None)) };
     let mut left = components.iter().filter(is_other).collect::<Vec<_>>();
-    statements.retain(|statement| {
-        let Statement::Assign { name, value, .. } = statement else { return true };
-        let within = |component: &&Component| (name.start..value.end).contains(&component.at);
+    let mut at = 0;
+    while at < statements.len() {
+        let (count, range) = whole(&statements[at..]);
+        let within = |component: &&Component| range.contains(&component.at);
         let mut inside = components.iter().filter(within).peekable();
-        let is_kept = inside.peek().is_none() || inside.any(|it| it.letter == first.letter);
-        left.retain(|component| is_kept || !within(component));
-        is_kept
-    });
+        if inside.peek().is_none() || inside.any(|it| it.letter == first.letter) {
+            at += 1;
+            continue;
+        }
+        left.retain(|component| !within(component));
+        text.replace_range(range.clone(), &" ".repeat(range.len()));
+        statements.drain(at..at + count);
+    }
     let letters = [first, other].map(|component| char::from(component.letter));
     match left.first() {
         Some(mixed) => fault(
@@ -288,18 +323,18 @@ mod tests {
             ("player.velocity.x *= 0.9", "       velocity   *= 0.9", "x"),
             ("position.lerp(target.position, 1)", "position.lerp(target         , 1)", ""),
             ("this.pos->lerp(goal.y, 1)", "     pos .lerp(goal  , 1)", "y"),
-            ("this.x += rb.speed", "     x +=    speed", ""),
+            ("this.x += rb.speed", "     x +=    speed", "x"),
             ("std::f64::consts::PI", "                  pi", ""),
             ("time.delta_secs()", "     delta_secs  ", ""),
             ("f(x, ref vel, &v) & 0.5.abs()", "f(x,     vel,  v) & 0.5.abs()", ""),
             ("FMath::FInterpTo(x)", "       fInterpTo(x)", ""),
-            ("cam.x += (p.x - cam.x) * k", "    x += (__  -     x) * k", ""),
-            ("this.x += mouse.x - this.x", "     x += __      -      x", ""),
+            ("cam.x += (p.x - cam.x) * k", "    x += (__  -     x) * k", "xxx"),
+            ("this.x += mouse.x - this.x", "     x += __      -      x", "xxx"),
             ("pos = pos.lerp(player.pos, k)", "pos = pos.lerp(__        , k)", ""),
-            ("x += a.x - b.x", "x += a   - b  ", ""),
-            ("x += a.x - target", "x += a   - target", ""),
-            ("velocity.x += input.x", "velocity   += input  ", "x"),
-            ("a.x += a.y * b.vel.x", "  x +=   y *   vel  ", "x"),
+            ("x += a.x - b.x", "x += a   - b  ", "xx"),
+            ("x += a.x - target", "x += a   - target", "x"),
+            ("velocity.x += input.x", "velocity   += input  ", "xx"),
+            ("a.x += a.y * b.vel.x", "  x +=   y *   vel  ", "xyx"),
         ] {
             let mut text = written.as_bytes().to_vec();
             let found = reduce(&mut text);

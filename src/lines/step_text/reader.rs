@@ -9,9 +9,10 @@ pub(super) use spin::SPIN_NAMES;
 use values::CONSTANTS;
 
 use super::method::{Array, Function as OwnFunction, Machine, Taken};
+use super::names::{STEP_NAMES, meant};
 use super::paths::{SMOOTH_DAMP, damped_velocity};
 use super::statements::{Declares, Statement};
-use super::{BUILT_IN, Carried, H, Line, OTHER_NAMES, STEP_NAMES, StepText, TARGET, V, X};
+use super::{BUILT_IN, Carried, H, Line, StepText, TARGET, V, X};
 use crate::expression::{Expression, Node, Scope, parse, parse_condition};
 use crate::fault::{ExpressionFault, Parsed, Remedy, fault, quoted};
 use crate::function::Function;
@@ -54,6 +55,8 @@ struct Block {
 /// Consumes the statements of a text, one by one.
 pub(super) struct Reader<'t> {
     text: &'t str,
+    /// The words that mean `x`, `v` and `target`.
+    meant: Vec<(usize, String)>,
     names: Vec<String>,
     /// For each name, whether it may be read before a line assigns it.
     is_carried: Vec<bool>,
@@ -86,11 +89,6 @@ pub(super) struct Reader<'t> {
 
 /// The place that `SmoothDamp` leaves, until the velocity is assigned.
 const DAMPED_PLACE: &str = "damped_place";
-
-/// Whether a text has this word.
-fn has_word(text: &str, word: &str) -> bool {
-    text.split(|c: char| !c.is_ascii_alphanumeric() && c != '_').any(|found| found == word)
-}
 
 /// Returns the byte range of the name in the first call of the acceleration.
 fn first_call(text: &str) -> Option<Range<usize>> {
@@ -143,7 +141,7 @@ impl Scope for Reader<'_> {
     fn function(&self, name: &str) -> Option<&'static Function> {
         let found = Function::named_in_steps(name)?;
         let velocity = self.damps_velocity && found.name == SMOOTH_DAMP;
-        if velocity { Function::named_in_steps("smoothDampVelocity") } else { Some(found) }
+        if velocity { Function::named_in_functions("smoothDampVelocity") } else { Some(found) }
     }
 
     fn overload(&self, name: &str, count: usize) -> Option<&'static Function> {
@@ -164,6 +162,7 @@ impl<'t> Reader<'t> {
     ) -> Parsed<StepText> {
         let mut reader = Self::new(text, method_at.or_else(|| first_call(text)), Vec::new());
         reader.names = BUILT_IN.map(String::from).to_vec();
+        reader.meant = meant(text);
         reader.is_carried = vec![true; BUILT_IN.len()];
         reader.starts = vec![0.0; BUILT_IN.len()];
         reader.values = vec![None; BUILT_IN.len()];
@@ -187,6 +186,7 @@ impl<'t> Reader<'t> {
     fn new(text: &'t str, method_at: Option<Range<usize>>, functions: Vec<OwnFunction>) -> Self {
         Reader {
             text,
+            meant: Vec::new(),
             names: Vec::new(),
             is_carried: Vec::new(),
             starts: Vec::new(),
@@ -265,16 +265,9 @@ impl<'t> Reader<'t> {
         if STEP_NAMES.contains(&name) {
             return Some(H);
         }
-        let is_first = |(index, names): &&(usize, &[&str])| {
-            let place = names.iter().position(|known| *known == name);
-            place.is_some_and(|place| {
-                let mut before = names[..place].iter().chain([&BUILT_IN[*index]]);
-                !before.any(|known| has_word(self.text, known))
-            })
-        };
-        let other = OTHER_NAMES.iter().find(is_first);
+        let meant = self.meant.iter().find(|(_, word)| word == name);
         let known = || self.names.iter().position(|known| known == name);
-        other.map(|(index, _)| *index).or_else(known)
+        meant.map(|(index, _)| *index).or_else(known)
     }
 
     /// Returns the name that a statement declares. If the lines read a memory as `memory.name`, the name includes that
@@ -287,8 +280,7 @@ impl<'t> Reader<'t> {
 
     fn declare(&mut self, span: Range<usize>, is_carried: bool, is_memory: bool) -> Parsed<()> {
         let name = &*self.declared(span.clone(), is_memory);
-        let is_word = OPERATOR_WORDS.contains(&name) || name == "pi";
-        if is_word || Function::is_reserved(name) {
+        if OPERATOR_WORDS.contains(&name) || name == "pi" {
             let what = format!("`{}` has a meaning of its own in expressions", quoted(name));
             return fault(span, what, "give it another name");
         }

@@ -6,6 +6,7 @@ use super::declarations::{Declaration, declarations};
 use super::dialect::{Dialect, Precision};
 use crate::sim::law::{
     Expression, Level, Line, LoopName, MethodInput, Operation, StepBody, StepText, bracketed,
+    is_function,
 };
 
 /// The prefix of a number that the memory carries.
@@ -69,6 +70,7 @@ pub(super) fn spellings<'t>(text: &'t StepText, dialect: &Dialect) -> Spellings<
         let is_duration = plain == "duration_ms";
         let (mut free, mut spelling) = (plain.clone(), (dialect.spelt)(&plain));
         while dialect.is_reserved(&spelling)
+            || is_function(&free)
             || is_loop_word(&spelling) && !is_duration
             || spellings.values().any(|it| *it == spelling)
         {

@@ -1,0 +1,83 @@
+//! The names by which games call the numbers of a step.
+
+use std::collections::HashSet;
+
+use super::{BUILT_IN, TARGET, V, X};
+
+/// Other names of the length of a step.
+pub(super) const STEP_NAMES: [&str; 13] = [
+    "dt",
+    "delta",
+    "deltaTime",
+    "delta_time",
+    "delta_seconds",
+    "DeltaTime",
+    "fixedDeltaTime",
+    "deltaSeconds",
+    "DeltaSeconds",
+    "delta_secs",
+    "delta_secs_f64",
+    "getDelta",
+    "elapsed",
+];
+
+/// The place of another body, which the lines draw theirs to. No person writes this name.
+pub(super) const OTHER_PLACE: &str = "__";
+
+/// Names that games use for `x`, `v` and `target`, between blanks, also with a capital. One is valid unless the text
+/// uses the original, or an earlier one.
+const OTHER_NAMES: [(usize, &str); 3] = [
+    (X, "pos position global_position cFrame value current"),
+    (
+        V,
+        "velocity vel speed vx velX vel_x hsp hspeed vspeed vy velY vel_y vsp angular_velocity angularVelocity",
+    ),
+    (
+        TARGET,
+        "goal desired targetPos target_pos targetPosition target_position targetX target_x targetY target_y \
+         targetAngle target_angle targetRotation target_rotation __",
+    ),
+];
+
+/// Names of `x` in lines that assign them and have no other place.
+pub(super) const LONE_PLACES: [&str; 3] = ["rotation", "angle", "y"];
+
+fn names_of(index: usize) -> impl Iterator<Item = &'static str> + Clone {
+    let others = OTHER_NAMES.iter().filter(move |(other, _)| *other == index);
+    [BUILT_IN[index]].into_iter().chain(others.flat_map(|(_, names)| names.split_whitespace()))
+}
+
+/// Whether a name may be one of the numbers of a step.
+pub(super) fn is_name_of(index: usize, name: &str) -> bool {
+    names_of(index).any(|known| known == name || capital(known) == name)
+}
+
+/// Returns the words of a text that mean `x`, `v` and `target`, each with its index.
+pub(super) fn meant(text: &str) -> Vec<(usize, String)> {
+    let words: HashSet<&str> =
+        text.split(|c: char| !c.is_ascii_alphanumeric() && c != '_').collect();
+    let is_assigned = |name: &str| {
+        let begins =
+            |at: usize| !text[..at].ends_with(|c: char| c.is_ascii_alphanumeric() || c == '_');
+        let mut all = text.match_indices(name);
+        all.any(|(at, _)| begins(at) && assigns(&text[at + name.len()..]))
+    };
+    let word = |index: usize| {
+        let lone = LONE_PLACES.iter().filter(|name| index == X && is_assigned(name));
+        let small = names_of(index).chain(lone.copied());
+        let mut all = small.clone().map(str::to_owned).chain(small.map(capital));
+        Some((index, all.find(|name| words.contains(&**name))?))
+    };
+    [X, V, TARGET].into_iter().filter_map(word).collect()
+}
+
+/// Whether a text begins with a sign that assigns the name before it.
+pub(super) fn assigns(after: &str) -> bool {
+    let after = after.trim_start_matches([' ', '\t']);
+    let sign = after.strip_prefix(['+', '-', '*', '/']).unwrap_or(after).strip_prefix('=');
+    sign.is_some_and(|rest| !rest.starts_with('='))
+}
+
+fn capital(name: &str) -> String {
+    name[..1].to_ascii_uppercase() + &name[1..]
+}
