@@ -266,6 +266,11 @@ impl Tape {
         })
     }
 
+    /// Returns the slots of the first two operands of each switch.
+    pub(super) fn switch_operands(&self) -> impl Iterator<Item = [u16; 2]> {
+        self.switches.iter().map(|(_, Instruction { operands: [a, b, _], .. })| [*a, *b])
+    }
+
     /// Returns the number of switches.
     pub fn switches(&self) -> usize {
         self.switches.len()

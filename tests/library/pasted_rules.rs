@@ -11,7 +11,7 @@ use regatta::tools::source_code::Language;
 use crate::rules::{FPS, START, TARGET, code, frames, is_near};
 
 /// Lines as they are pasted, each with the plain lines that it means.
-const PASTED: [(&str, &str); 36] = [
+const PASTED: [(&str, &str); 50] = [
     (
         "position = position.lerp(target, 1 - exp(-8 * delta))",
         "x = lerp(x, target, 1 - exp(-8 * dt))",
@@ -99,6 +99,41 @@ const PASTED: [(&str, &str); 36] = [
     ),
     ("vx += 2000*dt; vx *= 0.92; x += vx*dt", "v += 2000 * dt; v *= 0.92; x += v * dt"),
     ("-- follow the player\nx = x + (target - x) * 5 * dt -- smooth", "x += (target - x) * 5 * dt"),
+    ("x += target > x ? 3 * dt : -3 * dt", "if target > x { x += 3 * dt } else { x -= 3 * dt }"),
+    ("x += (3 if target > x else -3) * dt", "if target > x { x += 3 * dt } else { x -= 3 * dt }"),
+    (
+        "local k = target > x and 3 or x > 9 and 2 or -3\nx = x + k * dt",
+        "if target > x { x += 3 * dt } else { x -= 3 * dt }",
+    ),
+    (
+        "if x < 0.3:\n\tx += 3 * dt\nelif x > 2:\n\tx = 2\nelse:\n\tv *= 0.9\n\tif v < 0.3: v = 0.3\nx += v * dt",
+        "if x < 0.3 { x += 3 * dt } else if x > 2 { x = 2 } else { v *= 0.9; if v < 0.3 { v = 0.3 } }; x += v * dt",
+    ),
+    (
+        "if (x < 0.3) x += 3 * dt;\nelse if (v > 0.3) v *= 0.9;\nelse v = 0.4;\nx += v * dt;",
+        "if x < 0.3 { x += 3 * dt } else if v > 0.3 { v *= 0.9 } else { v = 0.4 }; x += v * dt",
+    ),
+    (
+        "const k = 5, min = 0.5; let step = Math.min(k * dt, min); x += (target - x) * step",
+        "x += (target - x) * 5 * dt",
+    ),
+    ("local a, b = 1, 2\nx = x + (target - x) * a / b * dt", "x += (target - x) * dt / 2"),
+    ("part.Position = part.Position:Lerp(target.Position, 0.1)", "x += (target - x) * 0.1"),
+    (
+        "global_position = global_position.lerp(player.global_position, 5 * delta)",
+        "x += (target - x) * 5 * dt",
+    ),
+    (
+        "rotation += angle_difference(rotation, target.rotation) * 0.1",
+        "x += (mod(target - x + pi, 2 * pi) - pi) * 0.1",
+    ),
+    ("rotation = rotate_toward(rotation, 3.5 * pi, delta)", "x -= dt"),
+    ("vy += 9 * dt; y += vy * dt", "v += 9 * dt; x += v * dt"),
+    ("cam.y = Phaser.Math.Linear(cam.y, player.y, 0.1)", "x += (target - x) * 0.1"),
+    (
+        "if (this.y > 5) { this.y = 5; this.vy = 0 }\nthis.x += this.vx * dt; this.y += this.vy * dt",
+        "x += v * dt",
+    ),
 ];
 
 #[test]
@@ -138,6 +173,11 @@ fn a_refusal_points_at_the_part_that_is_meant() {
         ("x = (x + v).norm", 12..16, "`norm` is one part of a value"),
         ("pos.x += vel.y", 9..10, "a line mixes the components x and y of vectors"),
         ("if x > 1 then x = 1", 18..19, "a block is not closed"),
+        (
+            "if this.y > 5 { this.x = 1 }; this.x += v",
+            8..9,
+            "a line mixes the components x and y of vectors",
+        ),
         ("x = Infinity", 4..12, "`Infinity` is no limit here"),
         ("x = move_toward(x, target, INF)", 27..30, "`INF` is no limit here"),
     ] {
@@ -151,6 +191,7 @@ fn a_refusal_points_at_the_part_that_is_meant() {
     known.sort();
     known.dedup();
     assert_eq!(known.len(), all, "each function once");
+    assert!(!known.iter().any(|name| ["angle_to", "damped"].contains(&&**name)), "{known:?}");
 }
 
 #[test]
@@ -191,6 +232,14 @@ fn a_rule_in_pieces_is_told_piece_by_piece() {
     assert!(is_near(Some(speed), 3.0) && toward.len() == 2);
     let wrap = pieces("x += (mod(target - x + pi, 2 * pi) - pi) * 0.1");
     assert!(wrap.len() == 1 && is_near(wrap[0].rule.motion_at(60.0).halves_s, 0.1096), "{wrap:?}");
+    let floored = pieces("x = floor(x + (target - x) * 0.5)");
+    assert_eq!(floored[0].condition, "between two steps of `floor(x + (target - x) * 0.5)`");
+    let slows = pieces("v = max(v - 5 * dt, 0); x += v * dt");
+    assert_eq!(slows[0].condition, "within the limits of `max(v - 5 * dt, 0)`");
+    assert_eq!(slows[1].condition, "at a limit of `max(v - 5 * dt, 0)`");
+    let bracketed = pieces("if ((x > 1) && (x < 9)) x *= 0.5");
+    let labels: Vec<&str> = bracketed.iter().map(|piece| &*piece.condition).collect();
+    assert_eq!(labels, ["while x > 1 and x < 9", "elsewhere"]);
     assert!(pieces("x += (target - x) * 0.1").is_empty());
     assert!(pieces("v -= v * abs(v) * 0.1; x += v * dt").is_empty());
 }

@@ -55,6 +55,20 @@ impl StepText {
         modes
     }
 
+    /// Returns for each switch the mode in which a limit leaves the number that moves; `None` if both or neither of its
+    /// operands move.
+    pub fn free_modes(&self) -> Vec<Option<i64>> {
+        let sets = self.inputs_of_slots();
+        let moving = self.carried.iter().fold(0, |set, carried| set | 1 << carried.input);
+        let moves = |slot: u16| sets[usize::from(slot)] & moving != 0;
+        let mode = |operands: [u16; 2]| match operands.map(moves) {
+            [true, false] => Some(1),
+            [false, true] => Some(0),
+            _ => None,
+        };
+        self.tape.switch_operands().map(mode).collect()
+    }
+
     /// Returns the source of each switch of the lines, with its kind.
     pub fn switches(&self) -> impl Iterator<Item = (SwitchKind, &str)> {
         self.tape

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use super::{Motion, Rule};
-use crate::sim::law::{Frame, SwitchKind};
+use crate::sim::law::{Frame, SwitchKind, bracketed};
 
 /// Number of states that are tried to find the pieces, and the decades over which they spread.
 const TRIED: u32 = 2000;
@@ -20,6 +20,9 @@ const ALIKE: f64 = 1e-9;
 /// Spellings of the distance to the target.
 const DISTANCES: [&str; 4] =
     ["abs(target-x)", "abs(x-target)", "fabs(target-x)", "(target-x).abs()"];
+
+/// Words of functions that turn a number around.
+const TURNS: [&str; 6] = ["mod", "%", "wrap", "repeat", "angle", "rotate"];
 
 /// The part of a rule in which all states move by one map.
 #[derive(Debug)]
@@ -47,15 +50,21 @@ pub enum Course {
 impl Rule {
     /// Returns the pieces of a rule that is linear only piece by piece; empty for all other rules.
     pub fn pieces(&self) -> Vec<Piece> {
-        let has_many = self.text.switches().any(|(kind, _)| kind == SwitchKind::Many);
+        let many = self.text.switches().find(|(kind, _)| *kind == SwitchKind::Many);
         let find = |mirrored: &[SwitchKind]| self.find_pieces(mirrored).unwrap_or_default();
         let mut pieces = find(&[SwitchKind::Limit, SwitchKind::Sign]);
-        if pieces.len() == 1 && !has_many {
+        if pieces.len() == 1 && many.is_none() {
             pieces = find(&[]);
         }
-        match &mut pieces[..] {
-            [one] if has_many => one.condition = "in each turn".into(),
-            [_] => return Vec::new(),
+        match (&mut pieces[..], many) {
+            ([one], Some((_, source))) => {
+                let turns = TURNS.iter().any(|word| source.to_ascii_lowercase().contains(word));
+                one.condition = match turns {
+                    true => "in each turn".into(),
+                    false => format!("between two steps of `{source}`"),
+                };
+            }
+            ([_], None) => return Vec::new(),
             _ => {}
         }
         pieces
@@ -177,6 +186,7 @@ impl Rule {
     ) -> String {
         let mut parts: Vec<String> = Vec::new();
         let switches: Vec<(SwitchKind, &str)> = self.text.switches().collect();
+        let free = self.text.free_modes();
         for (index, (kind, source)) in switches.iter().enumerate() {
             // The two limits of a `clamp` are one switch, of mode 1 if both leave its number.
             let twins: Vec<usize> =
@@ -193,7 +203,7 @@ impl Rule {
                 continue;
             }
             let source = source.split_whitespace().collect::<Vec<_>>().join(" ");
-            let within = if is_clamp { 1 } else { at_rest[index] };
+            let within = if is_clamp { 1 } else { free[index].unwrap_or(at_rest[index]) };
             let part = match kind {
                 SwitchKind::Condition => condition(&source, mode == 1),
                 SwitchKind::Limit if mode == within => format!("within the limits of `{source}`"),
@@ -203,6 +213,8 @@ impl Rule {
                 SwitchKind::Sign => format!("`{source}` of a number below 0"),
                 SwitchKind::Many => continue,
             };
+            let follows = parts.iter().any(|part| part.starts_with("while "));
+            let part = part.strip_prefix("while ").filter(|_| follows).unwrap_or(&part).to_owned();
             if !parts.contains(&part) {
                 parts.push(part);
             }
@@ -291,6 +303,9 @@ fn is_alike(a: &Frame, b: &Frame, offsets: Offsets) -> bool {
 fn condition(source: &str, is_true: bool) -> String {
     const OPPOSITES: [(&str, &str); 6] =
         [("<=", ">"), (">=", "<"), ("==", "!="), ("!=", "=="), ("<", ">="), (">", "<=")];
+    if let Some(inside) = bracketed(source) {
+        return condition(inside.trim(), is_true);
+    }
     let (mut depth, mut found) = (0, None);
     for (at, sign) in source.char_indices() {
         depth += i32::from(sign == '(') - i32::from(sign == ')');
