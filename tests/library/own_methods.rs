@@ -8,7 +8,7 @@ use regatta::scene::{LaneSpec, Scene};
 use regatta::sim::integrators::{Family, GENERAL_METHODS, METHODS, Method, integrator};
 use regatta::sim::law::StepText;
 use regatta::sim::{
-    OwnLines, Query, State, System, Vector, check_own_id, own_method, own_method_id,
+    BodyClass, OwnLines, Query, State, System, Vector, check_own_id, own_method, own_method_id,
 };
 
 use regatta::tools::source_code::{Language, Precision, source_code, step_lines};
@@ -214,6 +214,8 @@ fn the_printed_lines_of_an_engine_keep_its_usual_substeps() {
         assert_eq!(own.default_substeps, method.default_substeps, "{}", method.id);
         let shown = source_code(own, Language::Rust, Precision::Double).unwrap();
         let is_of_an_engine = method.code.contains("takes force");
+        let no_spin = is_of_an_engine.then_some("its lines move a place, and a free spin turns");
+        assert_eq!(own.incompatibility(BodyClass::Spin), no_spin, "{}", method.id);
         assert_eq!(shown.contains("Not measured: its lines take"), is_of_an_engine, "{shown}");
     }
     for number in ["0", "1001", "many", "2.5", ""] {

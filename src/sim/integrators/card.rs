@@ -102,6 +102,9 @@ pub enum Needs {
 pub(super) const NO_FREE_SPIN: &str =
     "it has no step of a free rotation: it works in the plane, or no log shows one";
 
+/// The reason why a person's lines of a place step no body that turns in space.
+const NO_TURN: &str = "its lines move a place, and a free spin turns";
+
 impl Only {
     /// Returns the reason why a method with this restriction and without a free spin steps no body of this class.
     /// `None` if it may step one.
@@ -310,6 +313,13 @@ impl Method {
             (None, ..)
             | (_, BodyClass::Spin, Some(Engine { free_spin: Some(_), .. }))
             | (_, BodyClass::Ball(_), Some(Engine { bounce: Some(_), .. })) => None,
+            (
+                Some(Only {
+                    needs: Needs::Force | Needs::Engine | Needs::EngineWithoutJoint, ..
+                }),
+                BodyClass::Spin,
+                None,
+            ) => Some(NO_TURN),
             (Some(only), ..) => only.incompatibility(class),
         }
     }
