@@ -15,6 +15,7 @@ use crate::run::race::{Lane, LaneBody, Mode};
 use crate::run::trace::{COLUMNS, each_row, method_id};
 use crate::scene::SceneBody;
 use crate::sim::bodies::Truth;
+use crate::sim::integrators::StepFailure;
 use crate::studio::Studio;
 
 use impacts::Impacts;
@@ -107,7 +108,7 @@ pub(super) fn run(args: &TraceArgs) -> Result<(), Error> {
         }
     }
     halts.lines.iter().for_each(|line| print_status(line));
-    Ok(())
+    halts.refusal.map_or(Ok(()), |refusal| Err(Error::failed(refusal)))
 }
 
 /// The table that is being written: of ticks, or of impacts.
@@ -242,6 +243,8 @@ fn print_accuracy(
 #[derive(Default)]
 struct Halts {
     lines: Vec<String>,
+    /// Why a method stepped a body not once.
+    refusal: Option<String>,
 }
 
 impl Halts {
@@ -252,6 +255,10 @@ impl Halts {
             let number = entrant.map_or(0, |entrant| 1 + before(entrant.id).count());
             let lane = entrant.map_or(race.truth(), |entrant| &entrant.lane);
             let body = &studio.scene().bodies[halt.body].name;
+            if matches!(halt.failure, StepFailure::Refused { .. }) {
+                self.refusal =
+                    Some(format!("lane {number} did not step {body}: it {}", halt.failure));
+            }
             let no_truth = if number == 0 { ", and so do its comparisons" } else { "" };
             self.lines.push(format!(
                 "lane {number}, {}, halted at tick {} (t = {:.3} s): {body} {}; its rows end there{no_truth}",

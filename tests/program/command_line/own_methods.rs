@@ -59,6 +59,11 @@ fn mistakes_in_own_methods_are_reported_with_place_and_remedy() {
         assert!(said.contains(told) && output.status.code() == Some(2), "{said}");
         assert!(said.contains('^'), "{said}");
     }
+    let text = "count n = 0; while n < 2 { v += a(x, v) * h / 2; n += 1 }; x += v * h";
+    let path = file(folder.path(), "loop.step", text);
+    let output = regatta().args(["trace", "--scene", "orbit", "--method", &path]).output().unwrap();
+    let said = stderr(&output);
+    assert!(said.contains("lane 1 did not step") && output.status.code() == Some(1), "{said}");
     let output = regatta().args(["rule", "v += a(x, v) * dt; x += v * dt"]).output().unwrap();
     assert!(stderr(&output).contains("as a method: `--method my.step`"), "{}", stderr(&output));
     let missing = regatta().args(["show", "none.step"]).output().unwrap();
