@@ -81,8 +81,8 @@ pub(super) struct AdviseArgs {
 
     /// Judge only the methods of this family
     ///
-    /// Explicit, symplectic, adaptive, implicit, linearised, as-printed, follower or engine; advise judges as-printed
-    /// and engines only by this option.
+    /// Explicit, symplectic, adaptive, implicit, linearised, as-printed, follower, engine or interface; advise judges
+    /// as-printed, engines and interfaces only by this option.
     #[arg(long, value_name = "FAMILY", value_parser = FAMILY, hide_possible_values = true, conflicts_with = "methods")]
     family: Option<Family>,
 

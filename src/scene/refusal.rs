@@ -32,9 +32,9 @@ impl Scene {
     }
 
     /// Returns the methods of the table, in its order, and then the scene's own methods, if they step every body.
-    /// Engines' methods only appear if the scene names one.
+    /// Methods of libraries only appear if the scene names one of their family.
     pub fn fitting_methods(&self) -> impl Iterator<Item = &'static Method> {
-        let is_shown = |method: &&Method| !method.is_engine() || self.names_an_engine();
+        let is_shown = |method: &&Method| !method.is_of_library() || self.names(method.family);
         let all = METHODS.iter().chain(self.own_methods.iter().copied());
         all.filter(is_shown).filter(|method| self.refusal(method).is_none())
     }
@@ -109,8 +109,8 @@ impl Scene {
             self.lanes = self.lanes_of(methods);
         }
         methods.iter().for_each(|method| self.know_own(method));
-        // Engines' methods only appear in scenes that name one, so they need a lane.
-        for &method in methods.iter().filter(|method| method.is_engine()) {
+        // Methods of libraries only appear in scenes that name one, so they need a lane.
+        for &method in methods.iter().filter(|method| method.is_of_library()) {
             if self.lanes.iter().all(|lane| lane.method != method) {
                 self.lanes.push(self.plain_lane(method));
             }
@@ -157,14 +157,14 @@ impl Scene {
         all.filter(|method| self.refusal(method).is_none())
     }
 
-    /// Whether a lane or a scripted action names an engine's method.
-    fn names_an_engine(&self) -> bool {
+    /// Whether a lane or a scripted action names a method of this family.
+    fn names(&self, family: Family) -> bool {
         let mut lanes = self.lanes.iter().map(|lane| lane.method);
         let mut switches = self.script.iter().filter_map(|event| match &event.action {
             Action::Method(method) => Some(*method),
             Action::Lane { spec, .. } => Some(spec.method),
             _ => None,
         });
-        lanes.any(Method::is_engine) || switches.any(Method::is_engine)
+        lanes.any(|it| it.family == family) || switches.any(|it| it.family == family)
     }
 }

@@ -143,18 +143,20 @@ fn no_follower_allocates_in_hundreds_of_steps() {
     }
 }
 
+/// The methods of the table that are so, which follow each other.
+fn run_of(is_so: fn(&Method) -> bool) -> &'static [Method] {
+    let runs = METHODS.chunk_by(|a, b| is_so(a) == is_so(b));
+    runs.into_iter().find(|run| is_so(&run[0])).expect("methods in a row")
+}
+
 #[test]
 fn no_engine_allocates_in_hundreds_of_steps() {
-    let first = METHODS.iter().position(Method::is_engine).expect("engines");
     let ship = Ship { drag: 1.0, mass: 2.0, thrust: 3.0, ..Ship::BLANK };
-    let engines = METHODS[first..].iter().position(|method| !method.is_engine()).unwrap();
-    let engines = &METHODS[first..first + engines];
-    all_step_without_allocating(engines, &problem(ship), &0.0, |it, _| fresh(it));
+    all_step_without_allocating(run_of(Method::is_engine), &problem(ship), &0.0, |it, _| fresh(it));
 }
 
 #[test]
 fn no_method_of_a_free_spin_allocates_in_hundreds_of_steps() {
-    let first = METHODS.iter().position(Method::is_for_spin).expect("methods of a free spin");
     let body = Tumble {
         moments: [1.0, 2.0, 3.0].into(),
         spin: [3.0, 0.5, 0.5].into(),
@@ -163,7 +165,15 @@ fn no_method_of_a_free_spin_allocates_in_hundreds_of_steps() {
         kick: [0.0; 3].into(),
     };
     let like = body.start().q;
-    all_step_without_allocating(&METHODS[first..], &problem(body), &like, integrator);
+    let gyros = run_of(Method::is_for_spin);
+    all_step_without_allocating(gyros, &problem(body), &like, integrator);
+}
+
+#[test]
+fn no_spring_of_an_interface_allocates_in_hundreds_of_steps() {
+    let interfaces = run_of(|method| method.is_of_library() && !method.is_engine());
+    let spring = Spring { mass: 1.0, stiffness: 400.0, damping: 1.0, x0: 1.0, v0: 0.0, kick: 1.0 };
+    all_step_without_allocating(interfaces, &problem(spring), &1.0, |it, _| fresh(it));
 }
 
 #[test]

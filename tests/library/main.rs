@@ -35,6 +35,7 @@ mod hint_rates;
 mod hints;
 mod histories;
 mod honesty;
+mod interfaces;
 mod judged_runs;
 mod judged_words;
 mod judging;

@@ -35,6 +35,7 @@ fn limit(method: &Method) -> String {
             "has no spring".into()
         }
         (Family::Gyro, _) => "of a free rotation".into(),
+        (Family::Interface, _) => "by a clock of its own".into(),
         (Family::Follower, None) => "follows at any step".into(),
         (Family::Follower, Some(limit)) => format!("follows up to k h = {}", short(limit, 2)),
         (_, None) => "at any step".into(),

@@ -22,7 +22,7 @@ const MAX_COUNTED_TICKS: u64 = 600;
 /// given. Counts evaluations at `tick_hz` from the scene's start until the script is over and step sizes have settled,
 /// 60 to 600 ticks.
 ///
-/// An engine keeps its own substeps. The cost of a lane whose bodies halt is the mean until that moment.
+/// A library keeps its own substeps. The cost of a lane whose bodies halt is the mean until that moment.
 pub fn equal_cost(
     scene: &Scene,
     lanes: &[LaneSpec],
@@ -31,7 +31,7 @@ pub fn equal_cost(
     let tick_hz = tick_hz.into();
     let cost = |spec: &LaneSpec, most| evaluations_per_tick(scene, spec, tick_hz, most);
     let dearest = lanes.iter().map(|spec| cost(spec, f64::INFINITY)).fold(0.0, f64::max);
-    let equal = |spec: &LaneSpec| match spec.method.is_engine() {
+    let equal = |spec: &LaneSpec| match spec.method.is_of_library() {
         true => *spec,
         false => nearest(dearest, *spec, cost),
     };

@@ -48,7 +48,7 @@ impl EngineRule for AvianMotor {
         let (h, set) = (substep(tick.length, tick.substeps), tick.settings);
         let (drag, resistance) = (1.0 + h * set.drag, set.resistance(h));
         let has_spring = set.has_spring();
-        let sums = tick.carried.expect("its card says how it restarts").components_mut();
+        let sums = tick.carried.expect("its card says how it restarts")[0].components_mut();
         let moved = q.components_mut().iter_mut().zip(v.components_mut());
         for (((x, v), f), sum) in moved.zip(tick.force.components()).zip(sums) {
             let before = std::mem::take(sum);

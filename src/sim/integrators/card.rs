@@ -33,11 +33,13 @@ pub enum Family {
     Engine,
     /// Turns a rigid body freely in space, by its moments of inertia.
     Gyro,
+    /// Reproduces a frame of the spring of an interface's library.
+    Interface,
 }
 
 impl Family {
     /// Every family with its id, one lower-case word, in the order of the table.
-    pub const ALL: [(&str, Family); 9] = [
+    pub const ALL: [(&str, Family); 10] = [
         ("explicit", Family::Explicit),
         ("symplectic", Family::Symplectic),
         ("adaptive", Family::Adaptive),
@@ -47,6 +49,7 @@ impl Family {
         ("follower", Family::Follower),
         ("engine", Family::Engine),
         ("gyro", Family::Gyro),
+        ("interface", Family::Interface),
     ];
 
     /// Returns the id of the family.
@@ -66,6 +69,7 @@ impl Family {
             Family::Follower => FIRST_ORDER_FOLLOWER,
             Family::Engine => ENGINE,
             Family::Gyro => GYRO,
+            Family::Interface => INTERFACE,
         }
     }
 }
@@ -94,6 +98,8 @@ pub enum Needs {
     Engine,
     /// A force that an engine can express without a joint.
     EngineWithoutJoint,
+    /// A spring with a stiffness, as a joint of an engine.
+    Joint,
     /// A free rotation in space.
     Spin,
 }
@@ -104,6 +110,7 @@ pub(super) const NO_FREE_SPIN: &str =
 
 /// The reason why a person's lines of a place step no body that turns in space.
 const NO_TURN: &str = "its lines move a place, and a free spin turns";
+const NO_INTERFACE: &str = "an interface's spring steps only a spring with a stiffness";
 
 impl Only {
     /// Returns the reason why a method with this restriction and without a free spin steps no body of this class.
@@ -117,8 +124,10 @@ impl Only {
             )
             | (Needs::Engine, BodyClass::Forced | BodyClass::Joint)
             | (Needs::EngineWithoutJoint, BodyClass::Forced)
+            | (Needs::Joint, BodyClass::Joint)
             | (Needs::Spin, BodyClass::Spin) => None,
             (Needs::Law { .. } | Needs::Spin, _) | (_, BodyClass::Joint) => Some(self.reason),
+            (Needs::Joint, _) => Some(self.reason),
             (_, BodyClass::Spin) => Some(NO_FREE_SPIN),
             (_, BodyClass::NoEngine(why) | BodyClass::Follower(why) | BodyClass::Ball(why)) => {
                 Some(why)
@@ -284,8 +293,8 @@ pub struct Method {
     /// How a method with memory starts; `None` if the method has no memory. It starts at the beginning, after a kick, a
     /// switch or a change of step, and if its state is not the one that it returned.
     pub restart: Option<&'static str>,
-    /// Whether a step of `h` always advances by `h`. Otherwise the method reports the time that is left out by
-    /// [`Integrator::lost_time`](super::Integrator::lost_time).
+    /// Whether a step of `h` always advances by `h`. Otherwise [`lost_time`](super::Integrator::lost_time) reports the
+    /// time that is left out, or an interface has a clock of its own.
     pub keeps_time: bool,
     /// The bodies that the method steps; `None` if it steps every body.
     pub only: Option<Only>,
@@ -361,10 +370,10 @@ impl Method {
         self.family == Family::AsPrinted
     }
 
-    /// Whether a game could implement the method. Engine methods, listings as printed and rules run only where a scene
-    /// or a command names them.
+    /// Whether a game could implement the method. Methods of libraries, listings as printed and rules run only where a
+    /// scene or a command names them.
     pub fn is_for_games(&self) -> bool {
-        !self.is_engine() && !self.is_as_printed() && self.rule_fps().is_none()
+        !self.is_of_library() && !self.is_as_printed() && self.rule_fps().is_none()
     }
 
     /// Returns an upper bound on how many numbers the method keeps on the heap besides its own vectors, for `n`
@@ -399,9 +408,14 @@ impl Method {
         }
     }
 
-    /// Whether the method reproduces a physics engine. Such a method runs only on request.
+    /// Whether the method reproduces a physics engine.
     pub fn is_engine(&self) -> bool {
         self.family == Family::Engine
+    }
+
+    /// Whether the method reproduces a library, which is an engine or an interface. Such a method runs only on request.
+    pub fn is_of_library(&self) -> bool {
+        self.is_engine() || self.family == Family::Interface
     }
 
     /// Whether the method holds the whole force of any body for a tick, as user code in an engine does. A spring is
@@ -584,4 +598,12 @@ pub(super) const GYRO: Method = Method {
         reason: "it turns a rigid body, so it steps only one that turns in space, such as `tumble`",
     }),
     ..PLAIN
+};
+
+/// A frame of an interface's spring, which reads the force once. The target is where the spring balances the force.
+pub(super) const INTERFACE: Method = Method {
+    family: Family::Interface,
+    keeps_time: false,
+    only: Some(Only { needs: Needs::Joint, reason: NO_INTERFACE }),
+    ..ENGINE
 };

@@ -1,4 +1,4 @@
-//! A tick of a physics engine, for one body.
+//! A tick of a physics engine, or a frame of an interface's spring, for one body.
 //!
 //! Each engine's file has its formula, read from the engine's source and checked against logs of the engine itself
 //! (`tests/library/engines`). All engines read the spring's stiffness and damping as settings of a joint and the drag
@@ -29,9 +29,9 @@ pub struct EngineTick<'a, V> {
     pub(super) settings: EngineSettings,
     /// f, the force per unit of mass, which is constant through the tick.
     pub(super) force: &'a V,
-    /// The engine's memory from tick to tick, which is 0 at the start; `None` if the engine's card has no
+    /// The two memories from tick to tick, which are 0 at the start; `None` if the engine's card has no
     /// [restart](Method::restart).
-    pub(super) carried: Option<&'a mut V>,
+    pub(super) carried: Option<&'a mut [V; 2]>,
 }
 
 impl<V> EngineTick<'_, V> {
@@ -56,7 +56,7 @@ pub trait EngineRule: Carded + Clone + Send + Sync + 'static {
 #[derive(Clone)]
 pub struct EngineMethod<V, R> {
     force: V,
-    carried: Option<V>,
+    carried: Option<[V; 2]>,
     /// K and c of the joint, if they override the body's.
     joint: Option<[f64; 2]>,
     /// Whether a system must answer the engine query.
@@ -68,7 +68,7 @@ impl<S: System<Vector: Vector>, R: EngineRule> Integrator<S> for EngineMethod<S:
     fn new(like: &S::Vector) -> Self {
         let mut zero = like.clone();
         zero.components_mut().fill(0.0);
-        let carried = R::CARD.restart.map(|_| zero.clone());
+        let carried = R::CARD.restart.map(|_| [zero.clone(), zero.clone()]);
         Self { force: zero, carried, joint: None, asks: false, rule: PhantomData }
     }
 
@@ -95,7 +95,7 @@ impl<S: System<Vector: Vector>, R: EngineRule> Integrator<S> for EngineMethod<S:
     }
 
     fn reset(&mut self) {
-        self.carried.iter_mut().for_each(|carried| carried.components_mut().fill(0.0));
+        self.carried.iter_mut().flatten().for_each(|carried| carried.components_mut().fill(0.0));
     }
 }
 
@@ -126,11 +126,16 @@ impl<V: Vector, R: EngineRule> EngineMethod<V, R> {
             Needs::Engine if self.asks => return Err(StepFailure::Refused { reason: NO_JOINT }),
             _ => system.acceleration(t, &state.q, &state.v, force),
         }
-        if only.needs == Needs::EngineWithoutJoint && settings.has_spring() {
-            return Err(StepFailure::Refused { reason: only.reason });
-        }
         if let (Some([stiffness, damping]), true) = (*joint, settings.has_spring()) {
             settings = EngineSettings { stiffness, damping, ..settings };
+        }
+        let is_refused = match only.needs {
+            Needs::EngineWithoutJoint => settings.has_spring(),
+            Needs::Joint => settings.stiffness <= 0.0,
+            _ => false,
+        };
+        if is_refused {
+            return Err(StepFailure::Refused { reason: only.reason });
         }
         let carried = carried.as_mut();
         let tick = EngineTick { length, substeps, settings, force, carried };

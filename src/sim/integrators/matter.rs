@@ -64,7 +64,7 @@ impl EngineRule for Matter {
         let part = (scale * scale * set.stiffness / FULL_STIFFNESS).min(1.0);
         let brake = scale * set.damping / FULL_DAMPING;
         let kept = 1.0 - h * set.drag;
-        let memory = tick.carried.expect("its card says how it restarts").components_mut();
+        let memory = tick.carried.expect("its card says how it restarts")[0].components_mut();
         let moved = q.components_mut().iter_mut().zip(v.components_mut());
         for (((x, v), f), way) in moved.zip(tick.force.components()).zip(memory) {
             let mut before = *x;

@@ -88,7 +88,10 @@ mod physx_tgs_56;
 mod position_verlet;
 mod prelude;
 mod pybullet;
+mod qt_spring;
 mod rapier;
+mod react_spring;
+mod reanimated;
 mod reset_on_change;
 mod rk4;
 mod rk4_as_printed;
@@ -358,6 +361,9 @@ methods! {
     moser_veselov::MoserVeselov as Gyro,
     lie_rk4::LieRk4 as Gyro,
     gyro_rk4::GyroRk4 as Gyro,
+    react_spring::ReactSpring as EngineMethod,
+    qt_spring::QtSpring as EngineMethod,
+    reanimated::Reanimated as EngineMethod,
 }
 
 /// Returns an integrator of `method` for bodies of this class and coupling, compiled once for each vector type.

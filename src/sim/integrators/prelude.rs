@@ -4,8 +4,8 @@ pub(super) use glam::{DQuat, DVec3};
 
 pub(super) use super::card::{
     ADAPTIVE, AS_PRINTED, BARE, DAMPS_BY_RATE, ENGINE, EXPLICIT, Engine, FIRST_ORDER_FOLLOWER,
-    FollowerQuantity, FollowerSetting, GYRO, IMPLICIT, LINEARISED, Method, Needs, Only, RINGS_ON,
-    SECOND_ORDER_FOLLOWER, SLOW_GROWTH, STEPS_BACK, SYMPLECTIC, Substeps,
+    FollowerQuantity, FollowerSetting, GYRO, IMPLICIT, INTERFACE, LINEARISED, Method, Needs, Only,
+    RINGS_ON, SECOND_ORDER_FOLLOWER, SLOW_GROWTH, STEPS_BACK, SYMPLECTIC, Substeps,
 };
 pub(super) use super::engine::{EngineRule, EngineTick, cap, each, part_below};
 pub(super) use super::engine_bounce::EngineBounce;

@@ -11,7 +11,7 @@ use super::seen::{is_stable, spring_of_map};
 use super::{PortOutcome, REACHED, Wish};
 use crate::identify::Effective;
 use crate::sim::bodies::Spring;
-use crate::sim::integrators::{in_code, method};
+use crate::sim::integrators::{QtSpring, ReactSpring, in_code, method};
 use crate::sim::number::significant;
 use crate::sim::numerics::bisect;
 use crate::sim::{Body, State};
@@ -160,12 +160,6 @@ const ASTRAY: f64 = 0.1;
 /// interval is halved.
 const RATES: [f64; 2] = [1e-6, 1e12];
 const HALVINGS: u32 = 60;
-/// Step of react-spring in seconds, maximum number of steps in a frame, and their number in the first frame.
-const STEP_S: f64 = 1e-3;
-const MAX_STEPS: f64 = 64.0;
-const FIRST_STEPS: u32 = 17;
-/// Step of Qt in seconds.
-const SIXTEEN_S: f64 = 0.016;
 /// Step of the velocity in a frame, in seconds.
 const KICK_S: f64 = 1.0 / 60.0;
 
@@ -365,8 +359,11 @@ impl UiSpring {
             Steps::Exact | Steps::WholeMilliseconds | Steps::Sampled | Steps::SmoothDamp => None,
             Steps::PerFrame => Some([frame_s; 3]),
             Steps::Kick(longest) => Some([KICK_S, frame_s.min(longest), frame_s]),
-            Steps::Sixteen => Some([SIXTEEN_S; 3]),
-            Steps::Milliseconds => Some([STEP_S, STEP_S, STEP_S / pace(frame_hz)]),
+            Steps::Sixteen => Some([QtSpring::STEP_S; 3]),
+            Steps::Milliseconds => {
+                let step_s = ReactSpring::STEP_S;
+                Some([step_s, step_s, step_s / pace(frame_hz)])
+            }
         }
     }
 
@@ -451,7 +448,7 @@ impl UiSpring {
                 format!(
                     "semi-implicit Euler by 1 ms, rounded up: its time runs {} % {way} at {frame_hz} frames per second, which these numbers allow for; the first frame is always 17 ms; lags below {} of them",
                     percent(off),
-                    1.0 / (MAX_STEPS * STEP_S),
+                    1.0 / ReactSpring::LONGEST_S,
                 )
             }
             Steps::SmoothDamp => "a rational function for the exponential: never explodes".into(),
@@ -500,5 +497,5 @@ impl StepMap {
 
 /// Returns the number of simulated seconds per second in react-spring, which rounds each frame up to whole steps.
 fn pace(frame_hz: f64) -> f64 {
-    libm::ceil(1.0 / STEP_S / frame_hz).min(MAX_STEPS) * STEP_S * frame_hz
+    ReactSpring::steps(1.0 / frame_hz) * ReactSpring::STEP_S * frame_hz
 }

@@ -236,7 +236,7 @@ fn order(method: &Method) -> String {
 fn evaluations(method: &Method, text: &StepText) -> String {
     match (method.evaluations, method.restart) {
         (Some(count), _) if takes(text, "substeps") => format!("{count}, whatever the substeps"),
-        (Some(count), _) if method.is_engine() => count.to_string(),
+        (Some(count), _) if method.is_of_library() => count.to_string(),
         (Some(count), None) => count.to_string(),
         (Some(count), Some(_)) => format!("{count}, and one more at the first"),
         (None, _) => "as many as it needs".into(),
@@ -280,7 +280,7 @@ fn memory(method: &Method, text: &StepText) -> String {
     if has_no_memory(text) {
         return "none".into();
     }
-    if method.is_engine() {
+    if method.is_of_library() {
         return format!(
             "one for each coordinate, 0 at the start: {}. No step restarts it; make a new one after a jump of x or v",
             method.restart.unwrap_or("without memory")

@@ -22,8 +22,8 @@ fn ids_and_names_are_unique_and_found() {
 fn every_card_has_a_description_and_a_source() {
     for card in METHODS {
         assert!(card.about.len() > 20, "{}", card.id);
-        if card.is_engine() {
-            // A version dates an engine.
+        if card.is_of_library() {
+            // A version dates a library.
             assert!(card.source.contains(|c: char| c.is_ascii_digit()), "{}", card.id);
             continue;
         }
@@ -35,7 +35,8 @@ fn every_card_has_a_description_and_a_source() {
 #[test]
 fn families_agree_with_the_other_fields() {
     for card in METHODS {
-        let is_special = [Family::Follower, Family::Engine, Family::Gyro].contains(&card.family);
+        let is_special = [Family::Follower, Family::Engine, Family::Gyro, Family::Interface]
+            .contains(&card.family);
         assert_eq!(is_special, card.only.is_some(), "{}", card.id);
         assert_eq!(card.family == Family::Engine, card.engine.is_some(), "{}", card.id);
         let is_implicit = card.family == Family::Implicit;
@@ -59,8 +60,9 @@ fn the_method_table_is_grouped_by_family_with_engines_last() {
     families.dedup();
     let distinct: HashSet<_> = families.iter().map(|family| family.id()).collect();
     assert_eq!(families.len(), distinct.len(), "{families:?}");
-    let last = [Family::AsPrinted, Family::Follower, Family::Engine, Family::Gyro];
-    assert_eq!(families[families.len() - 4..], last);
+    let last =
+        [Family::AsPrinted, Family::Follower, Family::Engine, Family::Gyro, Family::Interface];
+    assert_eq!(families[families.len() - 5..], last);
     let general = METHODS.iter().filter(|card| card.only.is_none());
     assert!(GENERAL_METHODS.iter().eq(general), "those for every body come first");
 }

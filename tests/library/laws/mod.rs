@@ -65,7 +65,9 @@ fn twins() -> impl Iterator<Item = (SceneBody, SceneBody)> {
 fn the_built_in_bodies_as_laws_have_the_same_bits_under_every_method() {
     for (built_in, law) in twins() {
         // An engine knows the stiffness of a spring but only the force of a law.
-        for method in METHODS.iter().filter(|method| !method.is_engine() && !method.is_for_spin()) {
+        for method in
+            METHODS.iter().filter(|method| !method.is_of_library() && !method.is_for_spin())
+        {
             let [mut a, mut b] = [&built_in, &law].map(|it| stepper(it, Solver::Method(method)));
             for tick in 0..600 {
                 let t = f64::from(tick) / 60.0;
@@ -92,12 +94,14 @@ fn built_in_bodies_as_laws_have_the_same_verdicts() {
         scene.bodies = vec![body.clone()];
         scene.bodies[0].name = "twin".to_owned();
         let judge = Judge::new(&scene);
-        let methods = METHODS.iter().filter(|method| !method.is_engine() && !method.is_for_spin());
+        let methods =
+            METHODS.iter().filter(|method| !method.is_of_library() && !method.is_for_spin());
         let verdicts = methods.map(|method| judge.verdict(LaneSpec::plain(method), 60));
         verdicts.map(|verdict| everything(&verdict)).collect()
     };
     for (built_in, law) in twins() {
-        let methods = METHODS.iter().filter(|method| !method.is_engine() && !method.is_for_spin());
+        let methods =
+            METHODS.iter().filter(|method| !method.is_of_library() && !method.is_for_spin());
         for ((method, a), b) in methods.zip(judged(&built_in)).zip(judged(&law)) {
             assert_eq!(a, b, "{} under {}", built_in.kind.id, method.id);
         }

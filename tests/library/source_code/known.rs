@@ -112,7 +112,7 @@ pub(crate) fn steps_as(stepped: &Method, like: &Method, case: &Case) -> Vec<[f64
     let method = like;
     let force = FORCES[case.force].a;
     let order = method.law_order().unwrap_or(1);
-    let run = problem(Run { force, order, has_joint: method.has_joint() });
+    let run = problem(Run { force, order, has_joint: method.has_joint() || !method.is_engine() });
     let [q, v] = case.start;
     let mut state = State { q, v };
     let mut stepper = fresh(stepped);

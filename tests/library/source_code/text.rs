@@ -123,7 +123,7 @@ fn an_engines_header_is_right_for_joints_and_all_substeps() {
 fn a_source_that_compares_coordinates_explains_the_case_of_several() {
     for (method, source) in sources() {
         let text = method.code;
-        let compares = ["if error", "abs(v1", "end > target", "abs(r1"];
+        let compares = ["if error", "abs(v1", "end > target", "abs(r1", "x = aim"];
         let compares = compares.iter().any(|comparison| text.contains(comparison));
         assert_eq!(compares, source.claim("several").is_some(), "{}", method.id);
         let header = header(method.id);

@@ -4,13 +4,14 @@ use std::f64::consts::TAU;
 
 use super::ends::{Rest, adwaita_s, anime_s, envelope_s};
 use super::numbers::{
-    ANDROID_REST, ANIME_MOST, COMPOSE_REST, MOTION_LEAST, REANIMATED_ENERGY, REANIMATED_LONGER,
-    at_most_critical, bouncy, cut_to_milliseconds, equation, friction_without_bounce, motion_angle,
-    motion_cut, motion_omega, origami, qt, reanimated, sampling, slint_departure, to_milliseconds,
-    to_origami, wish,
+    ANDROID_REST, ANIME_MOST, COMPOSE_REST, MOTION_LEAST, REANIMATED_LONGER, at_most_critical,
+    bouncy, cut_to_milliseconds, equation, friction_without_bounce, motion_angle, motion_cut,
+    motion_omega, origami, qt, reanimated, sampling, slint_departure, to_milliseconds, to_origami,
+    wish,
 };
-use super::{HALVINGS, KICK_S, Key, SIXTEEN_S, Steps, Switch, UiSpring};
+use super::{HALVINGS, KICK_S, Key, Steps, Switch, UiSpring};
 use crate::port::{REACHED, Wish};
+use crate::sim::integrators::{QtSpring, ReactSpring, Reanimated};
 use crate::sim::numerics::bisect;
 
 const fn key(name: &'static str, usual: f64) -> Key {
@@ -118,7 +119,7 @@ const REANIMATED: UiSpring = UiSpring {
     source: "react-native-reanimated, packages/react-native-reanimated/src/animation/spring: spring.ts, springUtils.ts",
     version: "4.8.0",
     evidence: "run",
-    rest: Rest::When(|frame| frame.has_energy(REANIMATED_ENERGY)),
+    rest: Rest::When(|frame| frame.has_energy(Reanimated::REST)),
     ..CRITICAL
 };
 
@@ -248,7 +249,7 @@ pub static UI_SPRINGS: &[UiSpring] = &[
         version: "10.1.2",
         evidence: "run",
         steps: Steps::Milliseconds,
-        rest: Rest::When(|frame| frame.is_within(1e-3, 0.1)),
+        rest: Rest::When(|frame| frame.is_within(ReactSpring::REST, 100.0 * ReactSpring::REST)),
         code: "config: { mass: <mass>, tension: <tension>, friction: <friction> }",
         ..EQUATION
     },
@@ -385,7 +386,7 @@ pub static UI_SPRINGS: &[UiSpring] = &[
             let ratio = wish.damping_ratio.min(1.0);
             let energy =
                 |y: f64| libm::exp(-2.0 * y) * ((1.0 + y) * (1.0 + y) + ratio * ratio * y * y);
-            let y = bisect([0.0, 100.0], HALVINGS, |y| energy(y) > REANIMATED_ENERGY)[1];
+            let y = bisect([0.0, 100.0], HALVINGS, |y| energy(y) > Reanimated::REST)[1];
             let duration = y / ratio / wish.omega() / REANIMATED_LONGER;
             to_milliseconds([duration, ratio, 0.0, 0.0])
         },
@@ -512,11 +513,12 @@ pub static UI_SPRINGS: &[UiSpring] = &[
         read: Some(qt),
         limited: Some(|[spring, damping, mass, _]| qt([spring, damping.min(1.0), mass, 0.0])),
         write: |wish| {
-            let [spring, damping] = wish.joint().map(|per_kg| per_kg * wish.mass_kg * SIXTEEN_S);
+            let [spring, damping] =
+                wish.joint().map(|per_kg| per_kg * wish.mass_kg * QtSpring::STEP_S);
             [spring, damping.min(1.0), wish.mass_kg, 0.0]
         },
         steps: Steps::Sixteen,
-        rest: Rest::When(|frame| frame.is_within(0.01, 0.01)),
+        rest: Rest::When(|frame| frame.is_within(QtSpring::REST, QtSpring::REST)),
         code: "SpringAnimation { spring: <spring>; damping: <damping>; mass: <mass> }",
         ..EQUATION
     },

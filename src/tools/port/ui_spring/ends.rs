@@ -1,8 +1,8 @@
 //! The end of a motion: the rule by which a library takes it for at rest, and the distance left at that time.
 
-use super::{FIRST_STEPS, HALVINGS, SIXTEEN_S, Steps, UiSpring, Values, left_at, pace, part_left};
-use super::{STEP_S, StepMap};
+use super::{HALVINGS, StepMap, Steps, UiSpring, Values, left_at, part_left};
 use crate::port::Wish;
+use crate::sim::integrators::{QtSpring, ReactSpring};
 use crate::sim::numerics::bisect;
 use nalgebra::Vector2;
 
@@ -167,12 +167,12 @@ impl UiSpring {
         for number in 1..=(LONGEST_S * frame_hz).min(MAX_FRAMES) as u32 {
             let [last_s, at_s] = [number - 1, number].map(|n| f64::from(n) / frame_hz);
             let steps = match self.steps {
-                Steps::Milliseconds if number == 1 => FIRST_STEPS,
-                Steps::Milliseconds => (pace(frame_hz) / STEP_S / frame_hz).round() as u32,
-                Steps::Sixteen => whole(at_s, SIXTEEN_S) - whole(last_s, SIXTEEN_S),
-                _ => 1,
+                Steps::Milliseconds if number == 1 => ReactSpring::FIRST_STEPS,
+                Steps::Milliseconds => ReactSpring::steps(1.0 / frame_hz),
+                Steps::Sixteen => QtSpring::steps(at_s) - QtSpring::steps(last_s),
+                _ => 1.0,
             };
-            for _ in 0..steps {
+            for _ in 0..steps as u32 {
                 let last = state;
                 state = match (&map, self.steps) {
                     (Some(StepMap { map, .. }), _) => map * state,

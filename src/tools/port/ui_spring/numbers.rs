@@ -3,8 +3,9 @@
 use std::f64::consts::TAU;
 
 use super::ends::{envelope_s, settled_angle};
-use super::{Departure, SIXTEEN_S, Values, part_left};
+use super::{Departure, Values, part_left};
 use crate::port::Wish;
+use crate::sim::integrators::{QtSpring, Reanimated};
 
 /// Smallest damping ratio that Motion derives from a bounce. Its reciprocal is the largest one.
 pub(super) const MOTION_LEAST: f64 = 0.05;
@@ -27,8 +28,7 @@ const MAX_POINTS: f64 = 100.0;
 pub(super) const COMPOSE_REST: f64 = 0.01;
 /// Distance that Android takes for the end of an alpha, as a fraction of the way.
 pub(super) const ANDROID_REST: f64 = 0.75 / 256.0;
-/// Part of the energy that Reanimated takes for the end, and its real duration in units of the given one.
-pub(super) const REANIMATED_ENERGY: f64 = 6e-9;
+/// Real duration of Reanimated's springs, in units of the given one.
 pub(super) const REANIMATED_LONGER: f64 = 1.5;
 /// Mass and largest stiffness in Reanimated's search for a duration, and its iterations.
 const REANIMATED_MASS: f64 = 4.0;
@@ -46,7 +46,7 @@ pub(super) fn at_most_critical(wish: Wish) -> Wish {
 }
 
 pub(super) fn qt([spring, damping, mass, _]: Values) -> Wish {
-    equation([mass, spring / SIXTEEN_S, damping / SIXTEEN_S, 0.0])
+    equation([mass, spring / QtSpring::STEP_S, damping / QtSpring::STEP_S, 0.0])
 }
 
 /// Returns the motion of React Native's tension and friction.
@@ -83,12 +83,12 @@ pub(super) fn reanimated(values: Values) -> Wish {
     let omega = |stiffness: f64| libm::sqrt(stiffness / REANIMATED_MASS);
     let energy = |stiffness: f64| {
         let y = ratio * omega(stiffness) * REANIMATED_LONGER * duration;
-        libm::exp(-2.0 * y) * ((1.0 + y) * (1.0 + y) + ratio * ratio * y * y) - REANIMATED_ENERGY
+        libm::exp(-2.0 * y) * ((1.0 + y) * (1.0 + y) + ratio * ratio * y * y) - Reanimated::REST
     };
     let (mut low, mut high) = (f64::EPSILON, REANIMATED_STIFFEST);
     let mut stiffness = (low + high) / 2.0;
     for _ in 0..REANIMATED_STEPS {
-        if energy(stiffness).abs() <= 1e-3 * REANIMATED_ENERGY {
+        if energy(stiffness).abs() <= 1e-3 * Reanimated::REST {
             break;
         }
         *(if energy(stiffness) > 0.0 { &mut low } else { &mut high }) = stiffness;
