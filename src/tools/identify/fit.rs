@@ -2,7 +2,7 @@
 
 use super::candidates::Candidate;
 use super::effective::Effective;
-use super::logged::{Log, LoggedBody};
+use super::logged::{Log, LogRow, LoggedBody};
 use super::matching_spring::{Map, matching_spring};
 use super::motion::{run, run_by_map};
 use crate::sim::least_squares;
@@ -156,14 +156,49 @@ pub(super) fn fit(
         let steps = stepped(&body, start)?;
         are_alike(&steps, &now).then_some((start, body, steps))
     });
-    let (start, body, now) = by_map.or_else(|| refine(&stepped))?;
+    let worth = |now: &[[f64; 2]]| squares(&residuals(log, now, scale));
+    let mut found = by_map.or_else(|| refine(&stepped))?;
+    let precise = precise(log, candidate);
+    let is_far = worth(&found.2) > precise * precise * log.numbers() as f64;
+    if !is_linear && !is_spring_known && log.has_velocities() && is_far {
+        // Runs have folds where a tick is not linear. Single ticks lead past them.
+        let single = |body: &LoggedBody, _: [f64; 2]| {
+            single_ticks(log, candidate, body, tick_s).map(|states| in_units(&states, scale))
+        };
+        let of_spring = Search { fitted: vec![2, 3], ..search.clone() };
+        let past = of_spring.refine(&single, start, body.clone());
+        let other = past.and_then(|(start, body, _)| search.refine(&stepped, start, body));
+        if let Some(other) = other.filter(|other| worth(&other.2) < worth(&found.2)) {
+            found = other;
+        }
+    }
+    let (start, body, now) = found;
     let residuals = residuals(log, &now, scale);
     let is_finite = residuals.iter().flatten().all(|r| r.is_finite());
-    let precise = precise(log, candidate);
     is_finite.then_some(Fit { body, start, run: now, precise, residuals })
 }
 
+/// Number of rows whose single ticks are fitted.
+const SINGLE_TICKS: usize = 60;
+
+/// Returns the first row, and the states after a tick from each of the first rows; `None` without velocities.
+fn single_ticks(
+    log: &Log,
+    candidate: Candidate,
+    body: &LoggedBody,
+    tick_s: f64,
+) -> Option<Vec<[f64; 2]>> {
+    let rows = &log.rows()[..log.rows().len().min(SINGLE_TICKS)];
+    let state = |row: &LogRow| Some([row.x, row.v?]);
+    let after = |pair: &[LogRow]| {
+        let ticks = [pair[0].tick, pair[1].tick].into_iter();
+        run(candidate, body, state(&pair[0])?, tick_s, ticks)?.last().copied()
+    };
+    [state(&rows[0])].into_iter().chain(rows.windows(2).map(after)).collect()
+}
+
 /// A search for the best numbers of a body, whose runs are made elsewhere.
+#[derive(Clone)]
 struct Search<'a> {
     log: &'a Log,
     tick_s: f64,
