@@ -327,9 +327,10 @@ static STYLES: LazyLock<Vec<(usize, usize)>> = LazyLock::new(|| {
     let colours = DARK.methods.len();
     let first = (0..colours * FIRST_DASHES).map(|n| (n % colours, n % FIRST_DASHES));
     let more = (FIRST_DASHES..DASHES.len()).flat_map(|dash| (0..colours).map(move |n| (n, dash)));
-    // The methods of a free spin have the styles of others, which they seldom meet.
+    // The methods of a free spin, and those of interfaces, have the styles of others, which they seldom meet.
     let mut of_spins: Vec<(usize, usize)> =
         first.clone().filter(|style| style.0 != EULER).collect();
+    let mut of_interfaces = of_spins.clone();
     let mut free: Vec<(usize, usize)> = first.chain(more).collect();
     let of_engines = (0..colours * ENGINE_DASHES.len())
         .map(|n| (n % colours, ENGINE_DASHES[n % ENGINE_DASHES.len()]));
@@ -350,6 +351,7 @@ static STYLES: LazyLock<Vec<(usize, usize)>> = LazyLock::new(|| {
             let free = match method.is_engine() {
                 true => &mut of_engines,
                 false if method.is_for_spin() => &mut of_spins,
+                false if method.is_of_library() => &mut of_interfaces,
                 false => &mut free,
             };
             let index = free.iter().position(differs).unwrap_or(0);

@@ -145,7 +145,7 @@ fn methods_differ_in_colour_or_dash_and_neighbours_in_colour() {
         |a: Rgba, b: Rgba| (0..3).map(|i| u32::from(a[i].abs_diff(b[i])).pow(2)).sum::<u32>();
     for (i, style) in STYLES.iter().enumerate() {
         let is_taken = |(other, method): (&(usize, usize), &Method)| {
-            let group = |method: &Method| (method.is_engine(), method.is_for_spin());
+            let group = |it: &Method| (it.is_engine(), it.is_for_spin(), it.is_of_library());
             other == style && group(method) == group(&METHODS[i])
         };
         assert!(!STYLES[..i].iter().zip(METHODS).any(is_taken), "{}", METHODS[i].id);
