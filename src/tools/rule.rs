@@ -93,7 +93,8 @@ pub struct VisibleMotion {
     pub grows: bool,
     /// The speed at which the rule gains no more, in the units of `v`; `None` if there is none.
     pub top_speed: Option<f64>,
-    /// The speed that the rule gains from rest per second, in the units of `v`; `None` if it does not drive itself.
+    /// The speed that the first frame from rest gains, for a second of such frames, in the units of `v`; `None` if the
+    /// rule does not drive itself.
     pub accelerates: Option<f64>,
     /// The height and the time in seconds of a jump that starts with [`Rule::jump_speed`].
     pub jump: Option<[f64; 2]>,

@@ -11,7 +11,7 @@ use regatta::tools::source_code::Language;
 use crate::rules::{FPS, START, TARGET, code, frames, is_near};
 
 /// Lines as they are pasted, each with the plain lines that it means.
-const PASTED: [(&str, &str); 50] = [
+const PASTED: [(&str, &str); 59] = [
     (
         "position = position.lerp(target, 1 - exp(-8 * delta))",
         "x = lerp(x, target, 1 - exp(-8 * dt))",
@@ -134,6 +134,24 @@ const PASTED: [(&str, &str); 50] = [
         "if (this.y > 5) { this.y = 5; this.vy = 0 }\nthis.x += this.vx * dt; this.y += this.vy * dt",
         "x += v * dt",
     ),
+    (
+        "self.v += 1\nif self.v > 3:\n    self.v = 3\nself.x += self.v",
+        "v += 1; if v > 3 { v = 3 } x += v",
+    ),
+    ("if self.v > 3: self.v = 3\nthis.v *= 0.9\nx += v", "if v > 3 { v = 3 } v *= 0.9; x += v"),
+    (
+        "if x > 3:\n    x = 3\nelse:\n    self.x += self.v\nself.v += 0.5",
+        "if x > 3 { x = 3 } else { x += v } v += 0.5",
+    ),
+    (
+        "const delta = target - x; v += delta*100*dt - v*10*dt; x += v*dt",
+        "v += (target - x)*100*dt - v*10*dt; x += v*dt",
+    ),
+    ("float speed = 5f;\nx += (target - x) * speed * dt", "x += (target - x) * 5 * dt"),
+    ("const goal = 5; x += (goal - x) * 0.1", "x += (5 - x) * 0.1"),
+    ("entity.dy = entity.dy + 6\nentity.y = entity.y + entity.dy * dt", "v += 6; x += v * dt"),
+    ("dx = mouseX - x; x += dx * 0.1", "x += (target - x) * 0.1"),
+    ("if x ~= target then x += sin(PI / 6) end", "if x != target { x += 0.5 }"),
 ];
 
 #[test]
@@ -512,4 +530,11 @@ fn a_thousand_random_lines_are_answered_or_refused_at_a_place() {
         }
     }
     assert!(answered > count / 10, "{answered} of {count}");
+}
+
+#[test]
+fn a_choice_is_one_operand_in_languages_without_compound_signs() {
+    let lines = "v *= v > 5 ? 0.5 : 0.9; x += v";
+    let code = Rule::read(lines, FPS).unwrap().code(lines, Language::Lua).unwrap();
+    assert!(code.text.contains("v = v * ((v > 5.0) and 0.5 or 0.9)"), "{}", code.text);
 }

@@ -30,14 +30,20 @@ const OTHER_NAMES: [(usize, &str); 3] = [
     (X, "pos position global_position cFrame value current"),
     (
         V,
-        "velocity vel speed vx velX vel_x hsp hspeed vspeed vy velY vel_y vsp angular_velocity angularVelocity",
+        "velocity vel speed vx velX vel_x hsp hspeed vspeed vy velY vel_y vsp angular_velocity angularVelocity \
+         xvel x_vel xVel xVelocity x_velocity velocityX velocity_x speedX speed_x velx hspd dx \
+         yvel y_vel yVel yVelocity y_velocity velocityY velocity_y speedY speed_y vely vspd dy",
     ),
     (
         TARGET,
         "goal desired targetPos target_pos targetPosition target_position targetX target_x targetY target_y \
-         targetAngle target_angle targetRotation target_rotation __",
+         targetAngle target_angle targetRotation target_rotation tx xTo dest destination mouseX mouse_x playerX \
+         player_x endX end_x ty yTo mouseY mouse_y playerY player_y endY end_y __",
     ),
 ];
+
+/// Names of `v` that may also be a distance, which the lines set before they read it.
+const DIFFERENCES: [&str; 2] = ["dx", "dy"];
 
 /// Names of `x` in lines that assign them and have no other place.
 pub(super) const LONE_PLACES: [&str; 3] = ["rotation", "angle", "y"];
@@ -65,10 +71,41 @@ pub(super) fn meant(text: &str) -> Vec<(usize, String)> {
     let word = |index: usize| {
         let lone = LONE_PLACES.iter().filter(|name| index == X && is_assigned(name));
         let small = names_of(index).chain(lone.copied());
+        let is_other = |name: &str| match index {
+            X => false,
+            _ if BUILT_IN.contains(&name) => false,
+            V => is_set(text, name, !DIFFERENCES.contains(&name)),
+            _ => is_set(text, name, false),
+        };
         let mut all = small.clone().map(str::to_owned).chain(small.map(capital));
-        Some((index, all.find(|name| words.contains(&**name))?))
+        Some((index, all.find(|name| words.contains(&**name) && !is_other(name))?))
     };
     [X, V, TARGET].into_iter().filter_map(word).collect()
+}
+
+/// Returns the names of the length of a step that the lines take for another number.
+pub(super) fn other_lengths(text: &str) -> Vec<&'static str> {
+    STEP_NAMES.into_iter().filter(|name| is_set(text, name, false)).collect()
+}
+
+/// Whether the lines set a number of this name before they read it: once and to digits, if it `is_constant`.
+fn is_set(text: &str, name: &str, is_constant: bool) -> bool {
+    let is_part = |c: char| c.is_ascii_alphanumeric() || c == '_';
+    let is_word = |(at, _): &(usize, &str)| {
+        !text[..*at].ends_with(is_part) && !text[at + name.len()..].starts_with(is_part)
+    };
+    let mut after =
+        text.match_indices(name).filter(is_word).map(|(at, _)| &text[at + name.len()..]);
+    let Some(first) = after.next() else { return false };
+    let Some(value) = first.trim_start().strip_prefix('=').filter(|it| !it.starts_with('=')) else {
+        return false;
+    };
+    let value = &value[..value.find([';', '\n']).unwrap_or(value.len())];
+    let reads = value.match_indices(name).any(|(at, _)| {
+        !value[..at].ends_with(is_part) && !value[at + name.len()..].starts_with(is_part)
+    });
+    let is_number = || value.trim().trim_start_matches('-').parse::<f64>().is_ok();
+    !reads && (!is_constant || is_number() && !after.any(assigns))
 }
 
 /// Whether a text begins with a sign that assigns the name before it.

@@ -52,6 +52,11 @@ pub(super) fn plain(text: &str) -> (String, Vec<Component>) {
             }
             b'-' if is_remark_of_lua(text.as_bytes(), at) => blank(&mut plain, line_length(rest)),
             b'\r' => blank(&mut plain, 1),
+            // Lua's `!=`.
+            b'~' if rest.starts_with(b"~=") => {
+                plain[at] = b'!';
+                2
+            }
             // Lua's `x:lerp(target, part)`.
             b':' if is_method_of_lua(&text[..at], &text[at + 1..]) => {
                 plain[at] = b'.';
@@ -148,6 +153,7 @@ mod tests {
             ("/*", "/*"),
             ("-- all\nx = -v -- x\n--", "      \nx = -v     \n  "),
             ("x = x --v", "x = x --v"),
+            ("x ~= v", "x != v"),
             ("x = x:Lerp(1) + (v):abs()", "x = x.Lerp(1) + (v).abs()"),
             ("x = v ? x:abs(v) : 1", "x = v ? x:abs(v) : 1"),
         ] {

@@ -9,7 +9,7 @@ pub(super) use spin::SPIN_NAMES;
 use values::CONSTANTS;
 
 use super::method::{Array, Function as OwnFunction, Machine, Taken};
-use super::names::{STEP_NAMES, meant};
+use super::names::{STEP_NAMES, meant, other_lengths};
 use super::paths::{SMOOTH_DAMP, damped_velocity};
 use super::statements::{Declares, Statement};
 use super::{BUILT_IN, Carried, H, Line, StepText, TARGET, V, X};
@@ -57,6 +57,8 @@ pub(super) struct Reader<'t> {
     text: &'t str,
     /// The words that mean `x`, `v` and `target`.
     meant: Vec<(usize, String)>,
+    /// The names of the length of a step that are those of other numbers here.
+    other_lengths: Vec<&'static str>,
     names: Vec<String>,
     /// For each name, whether it may be read before a line assigns it.
     is_carried: Vec<bool>,
@@ -162,7 +164,7 @@ impl<'t> Reader<'t> {
     ) -> Parsed<StepText> {
         let mut reader = Self::new(text, method_at.or_else(|| first_call(text)), Vec::new());
         reader.names = BUILT_IN.map(String::from).to_vec();
-        reader.meant = meant(text);
+        (reader.meant, reader.other_lengths) = (meant(text), other_lengths(text));
         reader.is_carried = vec![true; BUILT_IN.len()];
         reader.starts = vec![0.0; BUILT_IN.len()];
         reader.values = vec![None; BUILT_IN.len()];
@@ -187,6 +189,7 @@ impl<'t> Reader<'t> {
         Reader {
             text,
             meant: Vec::new(),
+            other_lengths: Vec::new(),
             names: Vec::new(),
             is_carried: Vec::new(),
             starts: Vec::new(),
@@ -262,7 +265,7 @@ impl<'t> Reader<'t> {
         if self.is_function || self.is_loop {
             return self.names.iter().position(|known| known == name);
         }
-        if STEP_NAMES.contains(&name) {
+        if STEP_NAMES.contains(&name) && !self.other_lengths.contains(&name) {
             return Some(H);
         }
         let meant = self.meant.iter().find(|(_, word)| word == name);

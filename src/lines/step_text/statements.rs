@@ -114,7 +114,7 @@ pub(super) fn statements(text: &str, source: &str) -> Parsed<Vec<Statement>> {
     if let Some(at) = text.find("/*") {
         return fault(at..at + 2, "the remark is not closed", "write `*/` at its end");
     }
-    let mut reader = Reader { text, at: 0, blocks: Vec::new(), read: VecDeque::new() };
+    let mut reader = Reader { text, source, at: 0, blocks: Vec::new(), read: VecDeque::new() };
     let mut statements = Vec::new();
     loop {
         let before = reader.at;
@@ -151,6 +151,8 @@ fn add_remarks(statements: &mut Vec<Statement>, source: &str, between: Range<usi
 
 struct Reader<'t> {
     text: &'t str,
+    /// The text as it is written, of the same length, whose lines begin where their author has put them.
+    source: &'t str,
     at: usize,
     /// The end of each open block.
     blocks: Vec<Ends>,

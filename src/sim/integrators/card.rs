@@ -8,6 +8,7 @@ use super::engine_bounce::EngineBounce;
 use super::free_spin::FreeSpin;
 use super::integrator::Tolerance;
 use super::joint_mode::JointMode;
+use super::only::{Needs, Only};
 use crate::TickRate;
 use crate::system::{BodyClass, Coupling};
 
@@ -74,67 +75,8 @@ impl Family {
     }
 }
 
-/// Restricts a method to some bodies.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Only {
-    /// The requirement on a body.
-    pub needs: Needs,
-    /// The reason why it steps no other body, as a clause in lower case that follows a colon.
-    pub reason: &'static str,
-}
-
-/// A method's requirement on a body.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[non_exhaustive]
-pub enum Needs {
-    /// A target that the body follows by a law.
-    Law {
-        /// The order of the law: 1 or 2.
-        order: u32,
-    },
-    /// Any force.
-    Force,
-    /// A force that an engine can express.
-    Engine,
-    /// A force that an engine can express without a joint.
-    EngineWithoutJoint,
-    /// A spring with a stiffness, as a joint of an engine.
-    Joint,
-    /// A free rotation in space.
-    Spin,
-}
-
-/// The reason why an engine without a [`FreeSpin`] steps no body that turns in space.
-pub(super) const NO_FREE_SPIN: &str =
-    "it has no step of a free rotation: it works in the plane, or no log shows one";
-
 /// The reason why a person's lines of a place step no body that turns in space.
 const NO_TURN: &str = "its lines move a place, and a free spin turns";
-const NO_INTERFACE: &str = "an interface's spring steps only a spring with a stiffness";
-
-impl Only {
-    /// Returns the reason why a method with this restriction and without a free spin steps no body of this class.
-    /// `None` if it may step one.
-    const fn incompatibility(&self, class: BodyClass) -> Option<&'static str> {
-        match (self.needs, class) {
-            (Needs::Law { .. }, BodyClass::Follower(_))
-            | (
-                Needs::Force,
-                BodyClass::Forced | BodyClass::Joint | BodyClass::NoEngine(_) | BodyClass::Ball(_),
-            )
-            | (Needs::Engine, BodyClass::Forced | BodyClass::Joint)
-            | (Needs::EngineWithoutJoint, BodyClass::Forced)
-            | (Needs::Joint, BodyClass::Joint)
-            | (Needs::Spin, BodyClass::Spin) => None,
-            (Needs::Law { .. } | Needs::Spin, _) | (_, BodyClass::Joint) => Some(self.reason),
-            (Needs::Joint, _) => Some(self.reason),
-            (_, BodyClass::Spin) => Some(NO_FREE_SPIN),
-            (_, BodyClass::NoEngine(why) | BodyClass::Follower(why) | BodyClass::Ball(why)) => {
-                Some(why)
-            }
-        }
-    }
-}
 
 /// The part of a card that only a physics engine has.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -604,6 +546,9 @@ pub(super) const GYRO: Method = Method {
 pub(super) const INTERFACE: Method = Method {
     family: Family::Interface,
     keeps_time: false,
-    only: Some(Only { needs: Needs::Joint, reason: NO_INTERFACE }),
+    only: Some(Only {
+        needs: Needs::Joint,
+        reason: "an interface's spring steps only a spring with a stiffness",
+    }),
     ..ENGINE
 };

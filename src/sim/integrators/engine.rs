@@ -11,10 +11,11 @@
 
 use std::marker::PhantomData;
 
-use super::card::{Carded, NO_FREE_SPIN, Needs};
+use super::card::Carded;
 use super::failure::{StepFailure, Stepped};
 use super::gyro::{moments_of, turn_state};
 use super::integrator::{Integrator, Override};
+use super::only::{NO_FREE_SPIN, Needs};
 use crate::state::{State, Vector};
 use crate::system::{EngineSettings, StateOf, System};
 

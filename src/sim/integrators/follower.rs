@@ -2,9 +2,10 @@
 
 use std::marker::PhantomData;
 
-use super::card::{Carded, Needs};
+use super::card::Carded;
 use super::failure::{StepFailure, Stepped};
 use super::integrator::Integrator;
+use super::only::Needs;
 use crate::state::{State, Vector};
 use crate::system::{Pursuit, StateOf, System};
 

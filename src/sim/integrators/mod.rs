@@ -80,6 +80,7 @@ mod newmark;
 mod newton_xpbd;
 mod oimo;
 mod oimo_symplectic;
+mod only;
 mod pefrl;
 mod phaser_arcade;
 mod physx;
@@ -114,8 +115,7 @@ mod verlet_exact_drag;
 mod yoshida4;
 
 pub use card::{
-    Carded, DAMPING_RATIOS, Engine, Family, FollowerQuantity, FollowerSetting, Method, Needs, Only,
-    Substeps,
+    Carded, DAMPING_RATIOS, Engine, Family, FollowerQuantity, FollowerSetting, Method, Substeps,
 };
 pub use custom_method::{AnyIntegrator, AnySystem, BuildIntegrator, custom_integrator};
 pub use engine::{EngineMethod, EngineRule, EngineTick};
@@ -126,6 +126,7 @@ pub use free_spin::{FreeSpin, SpinMap};
 pub use gyro::{Gyro, GyroRule, Turned};
 pub use integrator::{CloneIntegrator, Integrator, Override, Tolerance};
 pub use joint_mode::{JointMode, JointQuantity, Setting, in_code};
+pub use only::{Needs, Only};
 pub use shared::embedded_pair::{EmbeddedPair, Pair};
 pub use spelling::{UnknownMethod, method_or_nearest, plain};
 

@@ -278,7 +278,11 @@ impl<'t> Names<'t> {
             written.push((text, level));
         }
         let (text, level) = written.pop().unwrap_or_default();
-        (bare(&text).to_owned(), level)
+        // What had brackets of its own is loose without them.
+        match bare(&text) {
+            inner if inner.len() < text.len() => (inner.to_owned(), level.or(Some(Level::Or))),
+            whole => (whole.to_owned(), level),
+        }
     }
 
     fn number(&self, value: f64, written: Option<[&str; 2]>) -> String {

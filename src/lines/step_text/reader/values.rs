@@ -12,7 +12,7 @@ use crate::tape::MAX_OPERATIONS;
 
 /// Names of constants in games. A limit may be infinite, and a component of a zero vector is 0.
 pub(super) const CONSTANTS: [(&[&str], f64); 4] = [
-    (&["pi"], PI),
+    (&["pi", "PI"], PI),
     (&["nan"], f64::NAN),
     (
         &[

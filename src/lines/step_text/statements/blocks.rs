@@ -22,8 +22,8 @@ pub(super) enum Ends {
 impl Reader<'_> {
     /// Returns the byte of the line's beginning, and its indentation.
     fn line_at(&self, at: usize) -> [usize; 2] {
-        let start = self.text[..at].rfind('\n').map_or(0, |end| end + 1);
-        let line = &self.text[start..];
+        let start = self.source[..at].rfind('\n').map_or(0, |end| end + 1);
+        let line = &self.source[start..];
         [start, line.len() - line.trim_start_matches([' ', '\t']).len()]
     }
 
