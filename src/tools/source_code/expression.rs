@@ -217,8 +217,12 @@ impl<'t> Names<'t> {
                 }
                 Operation::Infix { sign, level, operands: [left, right], breaks } => {
                     let space = if breaks { dialect.broken_line() } else { " ".into() };
-                    let [left, right] =
+                    let [mut left, right] =
                         [operand(left, Some(level), false), operand(right, Some(level), true)];
+                    // Rust takes `n as f64 < m` for generic arguments.
+                    if sign == "<" && [" as f64", " as f32"].iter().any(|it| left.ends_with(it)) {
+                        left = format!("({left})");
+                    }
                     (format!("{left}{space}{} {right}", self.word(sign)), Some(level))
                 }
                 Operation::Negate(at) => {
