@@ -8,7 +8,7 @@ use crate::{RunCommand, StageCommand, Step, ViewCommand};
 fn studio(scene: &str, method: &str, ticks: u64) -> Studio {
     let mut scene = Scene::built_in(scene).unwrap();
     let method = METHODS.iter().find(|known| known.id == method).unwrap();
-    if method.is_engine() {
+    if method.is_of_library() {
         scene.lanes.push(LaneSpec::plain(method));
     }
     let mut studio = Studio::new(scene);
