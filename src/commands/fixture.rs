@@ -111,7 +111,7 @@ struct States {
     rows: Vec<(u64, Vec<f64>, Vec<f64>)>,
     reached: TruthAccuracy,
     /// The tick from which the truth is not known.
-    is_lost_at: Option<u64>,
+    lost_at: Option<u64>,
 }
 
 pub(super) fn run(args: &FixtureArgs) -> Result<(), Error> {
@@ -138,7 +138,7 @@ pub(super) fn run(args: &FixtureArgs) -> Result<(), Error> {
                 "the states of {name} end at tick {}: it {}",
                 halt.tick, halt.failure
             )),
-            None if let Some(tick) = states.is_lost_at => print_status(&format!(
+            None if let Some(tick) = states.lost_at => print_status(&format!(
                 "the states of {name} end at tick {tick}: no more is known of them than {LOST:e} of the largest"
             )),
             None if error.is_finite() => {}
@@ -165,13 +165,13 @@ pub(super) fn run(args: &FixtureArgs) -> Result<(), Error> {
 fn note(states: &mut [States], studio: &Studio, args: &FixtureArgs) {
     let tick = studio.race().tick();
     for (states, body) in states.iter_mut().zip(studio.race().truth().bodies()) {
-        if body.halted().is_some() || states.is_lost_at.is_some() {
+        if body.halted().is_some() || states.lost_at.is_some() {
             continue;
         }
         let before = states.reached;
         states.reached.note(body);
         if states.reached.is_lost() {
-            (states.reached, states.is_lost_at) = (before, Some(tick));
+            (states.reached, states.lost_at) = (before, Some(tick));
             continue;
         }
         if tick.is_multiple_of(args.ticks.every) {

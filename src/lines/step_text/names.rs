@@ -62,12 +62,7 @@ pub(super) fn is_name_of(index: usize, name: &str) -> bool {
 pub(super) fn meant(text: &str) -> Vec<(usize, String)> {
     let words: HashSet<&str> =
         text.split(|c: char| !c.is_ascii_alphanumeric() && c != '_').collect();
-    let is_assigned = |name: &str| {
-        let begins =
-            |at: usize| !text[..at].ends_with(|c: char| c.is_ascii_alphanumeric() || c == '_');
-        let mut all = text.match_indices(name);
-        all.any(|(at, _)| begins(at) && assigns(&text[at + name.len()..]))
-    };
+    let is_assigned = |name: &str| after_each(text, name).any(assigns);
     let word = |index: usize| {
         let lone = LONE_PLACES.iter().filter(|name| index == X && is_assigned(name));
         let small = names_of(index).chain(lone.copied());
@@ -90,22 +85,25 @@ pub(super) fn other_lengths(text: &str) -> Vec<&'static str> {
 
 /// Whether the lines set a number of this name before they read it: once and to digits, if it `is_constant`.
 fn is_set(text: &str, name: &str, is_constant: bool) -> bool {
-    let is_part = |c: char| c.is_ascii_alphanumeric() || c == '_';
-    let is_word = |(at, _): &(usize, &str)| {
-        !text[..*at].ends_with(is_part) && !text[at + name.len()..].starts_with(is_part)
-    };
-    let mut after =
-        text.match_indices(name).filter(is_word).map(|(at, _)| &text[at + name.len()..]);
+    let mut after = after_each(text, name);
     let Some(first) = after.next() else { return false };
     let Some(value) = first.trim_start().strip_prefix('=').filter(|it| !it.starts_with('=')) else {
         return false;
     };
     let value = &value[..value.find([';', '\n']).unwrap_or(value.len())];
-    let reads = value.match_indices(name).any(|(at, _)| {
-        !value[..at].ends_with(is_part) && !value[at + name.len()..].starts_with(is_part)
-    });
+    let reads = after_each(value, name).next().is_some();
     let is_number = || value.trim().trim_start_matches('-').parse::<f64>().is_ok();
     !reads && (!is_constant || is_number() && !after.any(assigns))
+}
+
+/// Returns the text after each place where this word stands.
+fn after_each<'t>(text: &'t str, word: &str) -> impl Iterator<Item = &'t str> {
+    let is_part = |c: char| c.is_ascii_alphanumeric() || c == '_';
+    let around = move |(at, _)| [&text[..at], &text[at + word.len()..]];
+    text.match_indices(word)
+        .map(around)
+        .filter(move |[before, after]| !before.ends_with(is_part) && !after.starts_with(is_part))
+        .map(|[_, after]| after)
 }
 
 /// Whether a text begins with a sign that assigns the name before it.
