@@ -2,6 +2,7 @@
 //! and returns commands.
 
 use std::collections::VecDeque;
+use std::time::Duration;
 
 use egui::{Align2, CursorIcon, Event, FontId, PointerButton, Pos2, Rect, Stroke, Ui, Vec2, vec2};
 
@@ -14,8 +15,8 @@ use crate::studio::{Command, RunCommand, StageCommand, Studio, ViewCommand, Zoom
 
 /// Distance from which a press is a drag, in points. A trembling hand stays below it.
 const DRAG: f32 = 3.0;
-/// The time over which a drag's velocity is measured, in seconds: long enough for several frames, short enough for a
-/// hand that stopped to count as at rest.
+/// The time over which a drag's velocity is measured, in seconds, and after which a hand that stopped is at rest: long
+/// enough for several frames.
 const MEMORY_S: f64 = 0.1;
 /// Time for which a moving body can also be taken where it was, in seconds: as late as people press,
 /// and a frame.
@@ -138,6 +139,9 @@ impl Touch {
         {
             grasp.follow_camera(&picture.cells);
             self.drag(&stage, time, at, commands);
+        }
+        if let Some(wait) = self.press.as_ref().and_then(|_| self.track.time_to_rest(time)) {
+            ui.ctx().request_repaint_after(wait);
         }
         let hover = hover.filter(|at| over_stage(*at));
         if self.press.is_none()
@@ -320,11 +324,28 @@ fn zoom(ui: &Ui, stage: &Stage<'_>, at: Pos2, commands: &mut Vec<Command>) {
 struct PointerTrail(VecDeque<(f64, Pos2)>);
 
 impl PointerTrail {
+    /// Adds a place at a time in seconds. One without a motion tells nothing: after a slow frame, a release comes late.
     fn add(&mut self, time: f64, at: Pos2) {
+        if self.0.back().is_some_and(|(_, last)| *last == at) {
+            return;
+        }
         self.0.push_back((time, at));
         while self.0.get(1).is_some_and(|(second, _)| time - second >= MEMORY_S) {
             self.0.pop_front();
         }
+    }
+
+    /// Time until the pointer is at rest if it does not move until then; `None` if it is. To be asked in each frame,
+    /// after its motions: only a frame without any shows that the pointer stands still.
+    fn time_to_rest(&mut self, time: f64) -> Option<Duration> {
+        let (last, at) = *self.0.back()?;
+        let left = last + MEMORY_S - time;
+        if left > 0.0 {
+            return Some(Duration::from_secs_f64(left));
+        }
+        self.0.clear();
+        self.0.push_back((time, at));
+        None
     }
 
     /// In points per second.

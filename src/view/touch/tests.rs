@@ -129,6 +129,22 @@ fn a_drag_throws_the_body_with_the_pointers_velocity_in_simulated_time() {
 }
 
 #[test]
+fn a_release_after_a_slow_frame_throws_with_the_velocity_of_the_motion() {
+    let mut table = Table::new("spring");
+    let at = table.body();
+    table.press(at);
+    for step in 1..=8 {
+        table.move_to(at + vec2(10.0 * step as f32, 0.0));
+    }
+    table.window.frame_s = 0.4;
+    let commands = table.release(at + vec2(80.0, 0.0), false);
+    let Some(Action::Place { v, .. }) = placed(&commands) else { panic!() };
+    let picture = table.picture();
+    let metre = picture.cells[0].metres([1.0, 0.0]).x - picture.cells[0].metres([0.0; 2]).x;
+    assert!((v[0] / metre - 200.0).abs() < 0.1, "{}", v[0] / metre);
+}
+
+#[test]
 fn a_stopped_pointer_does_not_throw() {
     let mut table = Table::new("spring");
     let at = table.body();
