@@ -8,7 +8,7 @@ use clap::Args;
 use super::error::Error;
 use super::experiment_args::ExperimentArgs;
 use super::help::flowing;
-use super::id::{FAMILY, LANGUAGE};
+use super::id::{CODE_FORM, FAMILY};
 use super::interrupt::watch_for_interrupt;
 use super::output::table::TableFormat;
 use super::{jobs, scene_file};
@@ -16,7 +16,7 @@ use crate::measure::Adviser;
 use crate::run::race::Mode;
 use crate::scene::{LaneSpec, Scene};
 use crate::sim::integrators::{Family, METHODS};
-use crate::tools::source_code::Language;
+use crate::tools::source_code::CodeForm;
 
 mod impact;
 mod judged;
@@ -94,9 +94,10 @@ pub(super) struct AdviseArgs {
 
     /// Print the recommended method as code too
     ///
-    /// As a function in this language, in text. For a spring of --k or --frequency the default is rust.
-    #[arg(long = "as", value_name = "LANGUAGE", value_parser = LANGUAGE)]
-    language: Option<Language>,
+    /// As a function in this language, in text: rust, c, cpp, csharp, gdscript, javascript, lua, or as the lines of a
+    /// step. For a spring of --k or --frequency the default is rust.
+    #[arg(long = "as", value_name = "LANGUAGE", value_parser = CODE_FORM, hide_possible_values = true)]
+    form: Option<CodeForm>,
 
     /// The format: text or json
     #[arg(long, value_name = "FORMAT", default_value = "text", hide_possible_values = true)]
@@ -145,8 +146,8 @@ pub(super) fn run(args: &AdviseArgs) -> Result<(), Error> {
     }
     let text = match args.format {
         TableFormat::Text => {
-            let usual = args.experiment.is_a_spring().then(Language::default);
-            let answer = report::answer(scene, &adviser, &rows, wanted, args.language.or(usual));
+            let usual = args.experiment.is_a_spring().then(CodeForm::default);
+            let answer = report::answer(scene, &adviser, &rows, wanted, args.form.or(usual));
             answer + &if args.all { report::all_tables(&rows) } else { report::best(&rows) }
         }
         TableFormat::Json => format!("{:#}\n", report::object(scene, &adviser, &rows, wanted)),

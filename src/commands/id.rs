@@ -17,7 +17,7 @@ use crate::scene::nearest;
 use crate::sim::integrators::{Family, METHODS, Method};
 use crate::sim::{IMPACTS, Impact, impact_spellings};
 use crate::studio::Instrument;
-use crate::tools::source_code::Language;
+use crate::tools::source_code::{CodeForm, Language};
 use crate::view::RendererChoice;
 
 /// The ids of one kind, with the value of each.
@@ -158,18 +158,17 @@ pub(super) const RENDERER: Id<RendererChoice> = Id::new("renderer", || {
 pub(super) const FAMILY: Id<Family> =
     Id::new("family", || Family::ALL.map(|(id, family)| (id.into(), family)).into());
 
-/// The languages of code, and C++, because a C++ compiler accepts the C code.
-pub(super) const LANGUAGE_OR_CPP: Id<Language> = Id {
+/// The forms of code: the languages, C++, whose compilers accept the C code, and the lines of a step.
+pub(super) const CODE_FORM: Id<CodeForm> = Id {
     spellings: languages_by_other_names,
-    ..Id::new(LANGUAGE.thing, || {
-        (LANGUAGE.all)().into_iter().chain([("cpp".into(), Language::C)]).collect()
+    ..Id::new("language", || {
+        let others = [("cpp", Language::C.into()), ("step", CodeForm::Step)];
+        let languages = Language::ALL.map(|language| (language.id(), language.into()));
+        languages.into_iter().chain(others).map(|(id, form)| (id.to_owned(), form)).collect()
     })
 };
 
-pub(super) const LANGUAGE: Id<Language> =
-    Id::new("language", || Language::ALL.map(|language| (language.id().into(), language)).into());
-
 /// Other names of languages, each with its id.
-pub(super) fn languages_by_other_names() -> Vec<(&'static str, &'static str)> {
+fn languages_by_other_names() -> Vec<(&'static str, &'static str)> {
     vec![("c++", "cpp"), ("c#", "csharp"), ("js", "javascript"), ("luau", "lua")]
 }

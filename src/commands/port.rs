@@ -6,7 +6,7 @@ use clap::{ArgGroup, Args};
 use super::argument::{brief, frequency, number, positive};
 use super::error::Error;
 use super::help::flowing;
-use super::id::Id;
+use super::id::{CODE_FORM, Id};
 use super::identify::LogArgs;
 use super::output::table::TableFormat;
 use super::terminal::print_status;
@@ -14,12 +14,14 @@ use super::tick_rate::{rate_of_a_log, rate_of_a_step};
 use crate::regular_file;
 use crate::scene::MAX_SUBSTEPS;
 use crate::sim::integrators::{METHODS, Method};
+use crate::tools::Rule;
 use crate::tools::identify::Identification;
 use crate::tools::port;
 use crate::tools::port::{
     Approach, DriveLimits, Ported, Setup, UI_SPRINGS, UiSpring, Wish, drive_limits, followers,
     setups,
 };
+use crate::tools::source_code::CodeForm;
 
 mod report;
 mod wish_source;
@@ -63,7 +65,7 @@ Examples:
   regatta port --frequency 2.5Hz --damping-ratio 0.3 --mass 80
   regatta port --frequency 1Hz --to engine-box2d,engine-jolt --tick-hz 50
   regatta port --from spring.csv --tick-hz 60 --format json
-  regatta port --from lerp:0.1@60fps
+  regatta port --from lerp:0.1@60fps --as csharp
   regatta port --from swiftui:duration=0.5,bounce=0.3 --to compose,css
   regatta port --from react-spring:tension=170,friction=26 --to ui --tick-hz 30
   regatta port --from react-native:tension=50,friction=1 --ends";
@@ -133,6 +135,13 @@ pub(super) struct PortArgs {
     #[arg(value_parser = RangedU64ValueParser::<u32>::new().range(1..=1000))]
     decimation: u32,
 
+    /// Print the motion as code of your own too: rust, c, cpp, csharp, gdscript, javascript, lua or step
+    ///
+    /// As a function that moves the same at any frame rate, in text.
+    #[arg(long = "as", value_name = "LANGUAGE", value_parser = CODE_FORM, hide_possible_values = true)]
+    #[arg(conflicts_with_all = ["drive", "ends"])]
+    form: Option<CodeForm>,
+
     #[command(flatten)]
     read: LogArgs,
 
@@ -179,6 +188,21 @@ impl PortArgs {
     fn tick_hz(&self) -> f64 {
         self.step_hz.or(self.tick_hz).unwrap_or(USUAL_HZ)
     }
+
+    /// Prints an answer and, with `--as`, the code of the motion, which is that of these lines at this frame rate.
+    fn print_with_code(&self, mut text: String, lines: &str, fps: f64) -> Result<(), Error> {
+        if let (Some(form), TableFormat::Text) = (self.form, self.format) {
+            let code = Rule::read(lines, fps).map_err(|fault| fault.what);
+            let code = code.and_then(|rule| rule.code(lines, form)).map_err(Error::mistake)?;
+            text += &format!("\n{}", code.text);
+        }
+        self.format.print(&text)
+    }
+}
+
+/// Returns the line of the exact chase.
+fn chase(approach: Approach) -> String {
+    format!("x += (target - x) * (1.0 - exp(-{:?} * dt))", approach.rate())
 }
 
 fn about() -> String {
@@ -248,10 +272,16 @@ pub(super) fn run(args: &PortArgs) -> Result<(), Error> {
         }
         Some(WishSource::Approach(approach, fps)) => {
             let ports = followers(approach, fps);
-            return args.format.print(&report::followers(approach, &ports, args.format));
+            let text = report::followers(approach, &ports, args.format);
+            return args.print_with_code(text, &chase(approach), args.tick_hz());
         }
         Some(WishSource::Friction(friction)) => {
-            return args.format.print(&report::friction(&friction, args.format));
+            let text = report::friction(&friction, args.format);
+            return args.print_with_code(
+                text,
+                &format!("v *= exp(-{:?} * dt)", friction.rate()),
+                friction.fps,
+            );
         }
         Some(WishSource::Engine(settings)) if args.drive => settings.as_given(),
         Some(WishSource::Engine(settings)) => settings.as_visible().map_err(|fault| {
@@ -272,7 +302,8 @@ pub(super) fn run(args: &PortArgs) -> Result<(), Error> {
             {
                 let approach = Approach { half_life_s };
                 let ports = followers(approach, None);
-                return args.format.print(&report::followers(approach, &ports, args.format));
+                let text = report::followers(approach, &ports, args.format);
+                return args.print_with_code(text, &chase(approach), tick_hz);
             }
             let seen = found.and_then(|found| found.effective).filter(|seen| seen.omega > 0.0);
             let none = || {
@@ -326,5 +357,6 @@ pub(super) fn run(args: &PortArgs) -> Result<(), Error> {
         let all: Vec<PortedEngine> = setups.into_iter().map(of).collect();
         report::springs((&wish, tick_hz, read.as_ref()), &all, &dialects, args.format)
     };
-    args.format.print(&text)
+    let own = UI_SPRINGS.iter().find(|it| it.id == "per-frame").expect("it is in the table");
+    args.print_with_code(text, &own.port(&wish, tick_hz).code, tick_hz)
 }

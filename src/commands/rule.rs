@@ -9,7 +9,7 @@ use serde_json::{Map, Value, json};
 use super::argument::brief;
 use super::error::Error;
 use super::help::flowing;
-use super::id::LANGUAGE_OR_CPP;
+use super::id::CODE_FORM;
 use super::output::print;
 use super::output::table::{Column, TableFormat, text};
 use super::tick_rate::rate_of_a_log;
@@ -22,7 +22,7 @@ use crate::tools::port::{PortOutcome, UI_SPRINGS, Wish, followers};
 use crate::tools::rule::{
     BouncesSeen, Course, Piece, RuleBounce, UNITS, VisibleMotion, rule_scene,
 };
-use crate::tools::source_code::Language;
+use crate::tools::source_code::{CodeForm, Language};
 
 const ABOUT: &str = "\
 RULE is the lines that a game runs once a frame, a file of them, or - for standard input. They assign
@@ -75,16 +75,18 @@ pub(super) struct RuleArgs {
     #[arg(long, value_name = "PART", conflicts_with = "scene", value_parser = part)]
     within: Option<f64>,
 
-    /// The language of the code: rust, c, cpp, csharp, gdscript, javascript or lua
+    /// The language of the code: rust, c, cpp, csharp, gdscript, javascript, lua or step
+    ///
+    /// `step` is the language of these lines and of a method of your own, to change and give back.
     #[arg(long = "as", value_name = "LANGUAGE", default_value = Language::Rust.id())]
-    #[arg(value_parser = LANGUAGE_OR_CPP, hide_possible_values = true)]
-    language: Language,
+    #[arg(value_parser = CODE_FORM, hide_possible_values = true)]
+    form: CodeForm,
 
     /// Print a scene instead, which races the lines at half, once and twice that rate
     ///
     /// Its exact motion is theirs at --fps. `regatta RULE.step` opens that scene in the window, for 60 frames per
     /// second.
-    #[arg(long, conflicts_with_all = ["format", "language"])]
+    #[arg(long, conflicts_with_all = ["format", "form"])]
     scene: bool,
 
     /// The format: text or json
@@ -142,7 +144,7 @@ pub(super) fn run(args: &RuleArgs) -> Result<(), Error> {
     };
     args.format.print(&match args.format {
         TableFormat::Json => format!("{:#}\n", object(&rule, &written)),
-        TableFormat::Text => report_text(&rule, &written, args.language),
+        TableFormat::Text => report_text(&rule, &written, args.form),
     })
 }
 
@@ -170,8 +172,8 @@ fn object(rule: &Rule, written: &str) -> Value {
     };
     let spring =
         |spring: Wish| json!({ "hz": spring.frequency_hz, "damping_ratio": spring.damping_ratio });
-    let code = (LANGUAGE_OR_CPP.all)().into_iter().map(|(id, language)| {
-        let code = rule.code(written, language).ok();
+    let code = (CODE_FORM.all)().into_iter().map(|(id, form)| {
+        let code = rule.code(written, form).ok();
         (id, Value::from(code.map(|code| code.text)))
     });
     json!({
@@ -379,7 +381,7 @@ fn hint(rule: &Rule, written: &str) -> Option<String> {
     ))
 }
 
-fn report_text(rule: &Rule, written: &str, language: Language) -> String {
+fn report_text(rule: &Rule, written: &str, form: CodeForm) -> String {
     let fps = rule.fps();
     let kind = match rule.is_linear() {
         true => "linear",
@@ -457,7 +459,7 @@ fn report_text(rule: &Rule, written: &str, language: Language) -> String {
             said += &format!("  {:26}  {}\n", port.method.id, port.code);
         }
     }
-    said += &match rule.code(written, language) {
+    said += &match rule.code(written, form) {
         Ok(code) => format!("\n{}", code.text),
         Err(reason) => format!("\nno code for other frame rates: {reason}\n"),
     };

@@ -7,7 +7,7 @@ use serde_json::json;
 
 use super::error::Error;
 use super::help::flowing;
-use super::id::{Id, LANGUAGE, LOOP, METHOD, languages_by_other_names};
+use super::id::{CODE_FORM, Id, LOOP, METHOD};
 use super::output::table::TableFormat;
 use super::output::{print, print_json};
 use super::own_file::{FRAMES, STEP, load_loop, load_method};
@@ -16,7 +16,7 @@ use crate::loops::PolicyCard;
 use crate::sim::integrators::{METHODS, Method};
 use crate::sim::{IMPACTS, Impact};
 use crate::tools::source_code::{
-    Language, Precision, impact_code, loop_code, source_code, step_lines,
+    CodeForm, Precision, impact_code, loop_code, source_code, step_lines,
 };
 
 const ABOUT: &str = "\
@@ -62,8 +62,8 @@ pub(super) struct ShowArgs {
     /// The default is rust, and step for the loop of an engine or of your own. The code in cpp is that in c. `step` is
     /// the language of a method or a loop of your own, to change and give back.
     #[arg(long = "as", value_name = "LANGUAGE")]
-    #[arg(value_parser = CODE_LANGUAGE, hide_possible_values = true)]
-    language: Option<CodeLanguage>,
+    #[arg(value_parser = CODE_FORM, hide_possible_values = true)]
+    form: Option<CodeForm>,
 
     /// The format: text or json
     #[arg(long, value_name = "FORMAT", default_value = "text", hide_possible_values = true)]
@@ -108,27 +108,6 @@ const SHOWN_ITEM: Id<ShownItem> = Id {
     ],
 };
 
-/// A language of the code.
-#[derive(Clone, Copy, Debug)]
-enum CodeLanguage {
-    /// A language of the printer.
-    Of(Language),
-    /// C++, which has the code of C.
-    Cpp,
-    /// The lines of a step or of a loop.
-    Step,
-}
-
-const CODE_LANGUAGE: Id<CodeLanguage> = Id {
-    spellings: languages_by_other_names,
-    ..Id::new(LANGUAGE.thing, || {
-        let methods =
-            (LANGUAGE.all)().into_iter().map(|(id, language)| (id, CodeLanguage::Of(language)));
-        let others = [("cpp", CodeLanguage::Cpp), ("step", CodeLanguage::Step)];
-        methods.chain(others.map(|(id, language)| (id.into(), language))).collect()
-    })
-};
-
 pub(super) fn run(args: &ShowArgs) -> Result<(), Error> {
     let code = code(args)?;
     match args.format {
@@ -153,29 +132,20 @@ fn code(args: &ShowArgs) -> Result<String, Error> {
                 "--float is for methods; a loop or a rule has no precision to choose",
             ));
         }
-        ShownItem::Loop(card) => return loop_source(card, args.language),
+        ShownItem::Loop(card) => return loop_source(card, args.form),
         ShownItem::Impact(impact) => {
-            let language = match args.language.unwrap_or(CodeLanguage::Of(Language::default())) {
-                CodeLanguage::Of(language) => language,
-                CodeLanguage::Cpp => Language::C,
-                CodeLanguage::Step => return Ok(impact.code.to_owned()),
-            };
-            return impact_code(impact, language).map_err(Error::mistake);
+            return impact_code(impact, args.form.unwrap_or_default()).map_err(Error::mistake);
         }
     };
-    let asked = args.language.unwrap_or(CodeLanguage::Of(Language::default()));
-    let language = match asked {
-        CodeLanguage::Of(language) => language,
-        // A C++ compiler accepts the C code.
-        CodeLanguage::Cpp | CodeLanguage::Step => Language::C,
-    };
-    let precision = if args.float { Precision::Single } else { Precision::Double };
-    let code = match asked {
-        CodeLanguage::Step if args.float => {
+    let code = match args.form.unwrap_or_default() {
+        CodeForm::Step if args.float => {
             return Err(Error::mistake("--float is for code; the lines of a step are for both"));
         }
-        CodeLanguage::Step => step_lines(method),
-        _ => source_code(method, language, precision),
+        CodeForm::Step => step_lines(method),
+        CodeForm::Function(language) => {
+            let precision = if args.float { Precision::Single } else { Precision::Double };
+            source_code(method, language, precision)
+        }
     };
     let code = code.map_err(Error::mistake)?;
     if let Some(alias) = alias {
@@ -186,15 +156,10 @@ fn code(args: &ShowArgs) -> Result<String, Error> {
 
 /// Returns the source code of a loop in a language. That of an engine or of a person is its lines, unless they ask for
 /// a language.
-fn loop_source(card: &PolicyCard, language: Option<CodeLanguage>) -> Result<String, Error> {
+fn loop_source(card: &PolicyCard, form: Option<CodeForm>) -> Result<String, Error> {
     let lines = card.lines().unwrap_or_default();
-    let language = match language {
-        Some(CodeLanguage::Step) => return Ok(lines.to_owned()),
-        None if card.is_from_outside() => return Ok(lines.to_owned()),
-        None => Language::default(),
-        Some(CodeLanguage::Of(language)) => language,
-        Some(CodeLanguage::Cpp) => Language::C,
-    };
+    let usual = if card.is_from_outside() { CodeForm::Step } else { CodeForm::default() };
+    let CodeForm::Function(language) = form.unwrap_or(usual) else { return Ok(lines.to_owned()) };
     loop_code(&card.id, lines, language).map_err(|reason| {
         Error::mistake(format!("{} has no code in {language}: {reason}; give --as step", card.id))
     })

@@ -22,7 +22,7 @@ use crate::sim::integrators::Method;
 pub use crate::sim::law::MethodInput;
 use crate::sim::law::{LoopText, StepText};
 
-pub use dialect::{Language, Precision};
+pub use dialect::{CodeForm, Language, Precision};
 pub(super) use printer::{RULE_STEP, rule_lines, rule_names};
 
 mod declarations;
@@ -120,8 +120,12 @@ pub fn step_lines(method: &Method) -> Result<String, NoSourceCode> {
     let language = Language::Rust;
     let text = printable(method, language, Precision::Double)?;
     let header = header::lines(method, &text, language).into_iter();
-    let header = header.map(|line| format!("# {line}").trim_end().to_owned() + "\n");
-    Ok(header.collect::<String>() + "\n" + method.code)
+    Ok(remarks(header) + "\n" + method.code)
+}
+
+/// Returns lines as remarks in the language of steps.
+fn remarks(lines: impl Iterator<Item = String>) -> String {
+    lines.map(|line| format!("# {line}").trim_end().to_owned() + "\n").collect()
 }
 
 /// Returns the statements of a method without remarks, blank lines and `let`, for a card beside its motion. Where the
@@ -154,32 +158,32 @@ pub fn bare_lines(method: &Method) -> Vec<String> {
     lines
 }
 
-/// Returns the function `rule` of generated lines, below a comment of these paragraphs.
+/// Returns generated lines as the function `rule` or as they are, below a comment of these paragraphs.
 ///
 /// # Errors
 /// The reason why the lines cannot be printed, as a clause.
-pub(super) fn rule_code(
-    lines: &str,
-    about: &[String],
-    language: Language,
-) -> Result<String, String> {
+pub(super) fn rule_code(lines: &str, about: &[String], form: CodeForm) -> Result<String, String> {
+    let CodeForm::Function(language) = form else {
+        let about = about.iter().flat_map(|paragraph| header::wrapped(paragraph));
+        return Ok(remarks(about) + "\n" + lines.trim_start());
+    };
     let text = StepText::read_generated(lines).map_err(|fault| fault.what)?;
     let header = header::of_rule(about, &text, language);
     Ok(printer::print("rule", &text, language, Precision::Double, &header))
 }
 
-/// Returns a rule for impacts as a function, for e = 0.8 and a floor at 0.
+/// Returns a rule for impacts, for e = 0.8 and a floor at 0.
 ///
 /// # Errors
 /// The reason why the language cannot express the rule, as a clause.
-pub fn impact_code(impact: &Impact, language: Language) -> Result<String, String> {
-    impact_code_for(impact, language, [0.8, 9.81])
+pub fn impact_code(impact: &Impact, form: impl Into<CodeForm>) -> Result<String, String> {
+    impact_code_for(impact, form, [0.8, 9.81])
 }
 
 /// Returns a rule as [`impact_code`] does, for this restitution and gravity (m/s²).
 pub fn impact_code_for(
     impact: &Impact,
-    language: Language,
+    form: impl Into<CodeForm>,
     [e, g]: [f64; 2],
 ) -> Result<String, String> {
     let effect = impact.kappa.map(|kappa| {
@@ -191,7 +195,7 @@ pub fn impact_code_for(
     let about = std::iter::once(format!("{}: {}.", impact.id, impact.about)).chain(effect);
     let code = impact.code.replace("let e = 0.8", &format!("let e = {e:?}"));
     let code = code.replace("let g = 9.81", &format!("let g = {g:?}"));
-    rule_code(&code, &about.collect::<Vec<_>>(), language)
+    rule_code(&code, &about.collect::<Vec<_>>(), form.into())
 }
 
 /// Returns a game loop in a language, below a comment from the claims of its lines. It is the type `GameLoop`, whose

@@ -1000,7 +1000,9 @@ c\t''
 csharp\t''
 gdscript\t''
 javascript\t''
-lua\t''"
+lua\t''
+cpp\t''
+step\t''"
 complete -c regatta -n "__fish_regatta_using_subcommand advise" -l format -d 'The format: text or json' -r -f -a "text\t'Aligned columns, for people'
 json\t'An array of objects, for programs'"
 complete -c regatta -n "__fish_regatta_using_subcommand advise" -l rates -d 'Also find the slowest tick rates'
@@ -1674,6 +1676,14 @@ qt\t''
 unity-smooth-damp\t''
 per-frame\t''"
 complete -c regatta -n "__fish_regatta_using_subcommand port" -l decimation -d 'How many ticks a drive in user code holds its force' -r
+complete -c regatta -n "__fish_regatta_using_subcommand port" -l as -d 'Print the motion as code of your own too: rust, c, cpp, csharp, gdscript, javascript, lua or step' -r -f -a "rust\t''
+c\t''
+csharp\t''
+gdscript\t''
+javascript\t''
+lua\t''
+cpp\t''
+step\t''"
 complete -c regatta -n "__fish_regatta_using_subcommand port" -l k -d 'The stiffness of the spring [default: fitted]' -r
 complete -c regatta -n "__fish_regatta_using_subcommand port" -l c -d 'The damping of the spring [default: fitted]' -r
 complete -c regatta -n "__fish_regatta_using_subcommand port" -l drag -d 'The damping setting of the body' -r
@@ -1703,13 +1713,14 @@ complete -c regatta -n "__fish_regatta_using_subcommand rule" -l dt -d 'The unit
 ms\t''
 us\t''"
 complete -c regatta -n "__fish_regatta_using_subcommand rule" -l within -d 'The fraction of the way, or of the speed, within which it has settled: 0.01 if left out' -r
-complete -c regatta -n "__fish_regatta_using_subcommand rule" -l as -d 'The language of the code: rust, c, cpp, csharp, gdscript, javascript or lua' -r -f -a "rust\t''
+complete -c regatta -n "__fish_regatta_using_subcommand rule" -l as -d 'The language of the code: rust, c, cpp, csharp, gdscript, javascript, lua or step' -r -f -a "rust\t''
 c\t''
 csharp\t''
 gdscript\t''
 javascript\t''
 lua\t''
-cpp\t''"
+cpp\t''
+step\t''"
 complete -c regatta -n "__fish_regatta_using_subcommand rule" -l format -d 'The format: text or json' -r -f -a "text\t'Aligned columns, for people'
 json\t'An array of objects, for programs'"
 complete -c regatta -n "__fish_regatta_using_subcommand rule" -l scene -d 'Print a scene instead, which races the lines at half, once and twice that rate'

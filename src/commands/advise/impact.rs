@@ -9,7 +9,7 @@ use crate::measure::{Adviser, CRITERIA, Verdict, criterion_to_take};
 use crate::scene::{LaneSpec, Scene};
 use crate::sim::integrators::method;
 use crate::sim::{Impact, TickRate};
-use crate::tools::source_code::{Language, impact_code_for};
+use crate::tools::source_code::{CodeForm, impact_code_for};
 
 /// A method with a rule that fits it.
 pub(super) struct ImpactAdvice {
@@ -79,7 +79,7 @@ impl ImpactAdvice {
 }
 
 /// Returns the exact bounces of the scene's ball as code; `None` if its body is no ball that falls without drag.
-pub(super) fn exact_code(scene: &Scene, language: Language) -> Option<String> {
+pub(super) fn exact_code(scene: &Scene, form: CodeForm) -> Option<String> {
     let [body] = &scene.bodies[..] else { return None };
     let of = |key: &str| Some(body.values[body.kind.parameter(key)?.0]);
     let [e, g] = [of("restitution")?, of("gravity_m_per_s2")?];
@@ -88,5 +88,5 @@ pub(super) fn exact_code(scene: &Scene, language: Language) -> Option<String> {
     if !is_free {
         return None;
     }
-    impact_code_for(Default::default(), language, [e, g]).ok()
+    impact_code_for(Default::default(), form, [e, g]).ok()
 }

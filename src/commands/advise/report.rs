@@ -11,27 +11,27 @@ use crate::measure::{
 };
 use crate::scene::{LaneSpec, Scene};
 use crate::tools::source_code;
-use crate::tools::source_code::{Language, Precision};
+use crate::tools::source_code::{CodeForm, Precision, step_lines};
 
 /// Maximum number of rows that are shown without `--all`.
 const MOST_ROWS: usize = 8;
 
-/// Returns the answer as text: the recommendations, then the code of the recommended method in `language`, if one is
+/// Returns the answer as text: the recommendations, then the code of the recommended method in `form`, if one is
 /// given.
 pub(super) fn answer(
     scene: &Scene,
     adviser: &Adviser,
     rows: &[Row],
     wanted: usize,
-    language: Option<Language>,
+    form: Option<CodeForm>,
 ) -> String {
     let mut text = recommendations(scene, adviser, rows, wanted);
     if let Some(impact) = ImpactAdvice::of(scene, adviser, rows) {
         text += &impact.line();
     }
-    let code = language.and_then(|language| match exact_code(scene, language) {
+    let code = form.and_then(|form| match exact_code(scene, form) {
         Some(code) => Some(format!("In place of the step and the line after it:\n\n{code}")),
-        None => code(scene, adviser, rows, language),
+        None => code(scene, adviser, rows, form),
     });
     if let Some(code) = code {
         text += &format!("\n{code}");
@@ -117,10 +117,15 @@ fn recommendations(scene: &Scene, adviser: &Adviser, rows: &[Row], wanted: usize
 }
 
 /// Returns the code of the recommended method, with the number of calls per tick.
-fn code(scene: &Scene, adviser: &Adviser, rows: &[Row], language: Language) -> Option<String> {
+fn code(scene: &Scene, adviser: &Adviser, rows: &[Row], form: CodeForm) -> Option<String> {
     let (row, Recommendation { with: met, .. }) =
         recommended_row(rows, criterion_to_take(&advised(rows))?)?;
-    let code = source_code(row.advised.spec.method, language, Precision::Double).ok()?;
+    let method = row.advised.spec.method;
+    let code = match form {
+        CodeForm::Step => step_lines(method),
+        CodeForm::Function(language) => source_code(method, language, Precision::Double),
+    };
+    let code = code.ok()?;
     let steps = met.substeps;
     let hz = adviser.tick_hz().scaled(steps, 1);
     let times = if steps == 1 { "once".into() } else { format!("{steps} times") };

@@ -4,7 +4,7 @@ use nalgebra::{Matrix2, Vector2};
 
 use super::{Piece, Rule};
 use crate::sim::law::{AT_TARGET, Frame, NO_RETURN, Powers, SwitchKind};
-use crate::source_code::{Language, RULE_STEP, rule_code, rule_lines, rule_names};
+use crate::source_code::{CodeForm, RULE_STEP, rule_code, rule_lines, rule_names};
 
 /// If the logarithms of the eigenvalues are this far apart, the code has two exponentials. If they are closer, the
 /// difference of the exponentials would be rounding.
@@ -33,10 +33,10 @@ impl NoClosedForm {
     }
 }
 
-/// The code of a rule in a language.
+/// The code of a rule.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct RuleCode {
-    /// Source code of the function.
+    /// Source code of the function, or its lines.
     pub text: String,
     /// The reason why the function makes fixed steps; `None` for the closed form.
     pub steps_because: Option<&'static str>,
@@ -48,7 +48,8 @@ impl Rule {
     ///
     /// # Errors
     /// Fails with a clause that explains why other languages cannot express the rule.
-    pub fn code(&self, written: &str, language: Language) -> Result<RuleCode, String> {
+    pub fn code(&self, written: &str, form: impl Into<CodeForm>) -> Result<RuleCode, String> {
+        let form = form.into();
         let fps = self.fps;
         let lines = written.lines().map(|line| line.trim().to_owned());
         let mut about = vec![format!("This rule of {fps} frames per second, at any frame rate:")];
@@ -59,15 +60,21 @@ impl Rule {
                 if self.state.len() > 1 && self.state.contains(&1) && !self.takes_step() {
                     about.push(format!("v is in units per frame of 1/{fps} s, as in the rule."));
                 }
-                Ok(RuleCode { text: rule_code(&source, &about, language)?, steps_because: None })
+                Ok(RuleCode { text: rule_code(&source, &about, form)?, steps_because: None })
             }
             Err(because) => {
-                let source = self.fixed_steps()?;
                 let reason = because.reason();
-                about.push(format!(
-                    "Fixed steps: {reason}. Draw memory.shown, which lies between the last two steps."
-                ));
-                let text = rule_code(&source, &about, language)?;
+                let (source, call) = match form {
+                    CodeForm::Function(_) => (
+                        self.fixed_steps()?,
+                        "Draw memory.shown, which lies between the last two steps.",
+                    ),
+                    CodeForm::Step => {
+                        (self.one_step()?, "Call it once a frame, as it was written.")
+                    }
+                };
+                about.push(format!("Fixed steps: {reason}. {call}"));
+                let text = rule_code(&source, &about, form)?;
                 Ok(RuleCode { text, steps_because: Some(reason) })
             }
         }
@@ -259,19 +266,30 @@ impl Rule {
         Ok(lines)
     }
 
-    fn fixed_steps(&self) -> Result<String, String> {
-        let lines = rule_lines(&self.text)?;
-        let shown = &self.state_names()[0];
-        let mut source =
-            "memory unspent = 0.0\nmemory before = nan\nmemory shown = nan\n".to_owned();
-        source += &self.head(self.text.takes_target(), 0..self.text.carried().len());
+    /// Returns the rule itself as the lines of a step.
+    fn one_step(&self) -> Result<String, String> {
+        let carried = 0..self.text.carried().len();
+        let lines = self.lines_of_step("h")?.join("\n");
+        Ok(self.head(self.text.takes_target(), carried) + &lines + "\n")
+    }
+
+    /// Returns the lines of the rule for a step of this length in seconds.
+    fn lines_of_step(&self, length: &str) -> Result<Vec<String>, String> {
         let units = match self.units {
             1.0 => String::new(),
             units => format!(" * {units:?}"),
         };
-        let step = self.text.reads_step().then(|| format!("let {RULE_STEP} = FRAME_S{units}"));
-        let lines: Vec<String> =
-            step.into_iter().chain(lines).map(|line| format!("    {line}")).collect();
+        let step = self.text.reads_step().then(|| format!("let {RULE_STEP} = {length}{units}"));
+        Ok(step.into_iter().chain(rule_lines(&self.text)?).collect())
+    }
+
+    fn fixed_steps(&self) -> Result<String, String> {
+        let shown = &self.state_names()[0];
+        let mut source =
+            "memory unspent = 0.0\nmemory before = nan\nmemory shown = nan\n".to_owned();
+        source += &self.head(self.text.takes_target(), 0..self.text.carried().len());
+        let lines = self.lines_of_step("FRAME_S")?.into_iter();
+        let lines: Vec<String> = lines.map(|line| format!("    {line}")).collect();
         Ok(source
             + &format!(
                 "const FRAME_S = {:?}

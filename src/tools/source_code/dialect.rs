@@ -20,6 +20,27 @@ pub enum Language {
     Lua,
 }
 
+/// The form in which lines are printed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum CodeForm {
+    /// A function in a language.
+    Function(Language),
+    /// The lines of a step, to change and give back.
+    Step,
+}
+
+impl Default for CodeForm {
+    fn default() -> Self {
+        Self::Function(Language::default())
+    }
+}
+
+impl From<Language> for CodeForm {
+    fn from(language: Language) -> Self {
+        Self::Function(language)
+    }
+}
+
 impl Language {
     /// All languages.
     pub const ALL: [Language; 6] = [

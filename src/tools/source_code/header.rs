@@ -319,7 +319,7 @@ fn yes(is: bool) -> &'static str {
 }
 
 /// Breaks a paragraph into lines.
-fn wrapped(paragraph: &str) -> Vec<String> {
+pub(super) fn wrapped(paragraph: &str) -> Vec<String> {
     let mut lines = vec![String::new()];
     for word in paragraph.split(' ') {
         let last = lines.last_mut().expect("there is a line");

@@ -54,6 +54,37 @@ fn a_target_has_settings_code_and_version_for_every_engine_mode() {
 }
 
 #[test]
+fn a_wish_is_also_code_of_your_own_in_every_language() {
+    for (wish, part) in [
+        ("--frequency 2 --damping-ratio 0.3 --to per-frame", "takes target"),
+        ("--from swiftui:duration=0.5,bounce=0.3 --to css", "takes target"),
+        ("--from lerp:0.1@60fps", "x = target + (x - target) * exp("),
+        ("--from friction:0.9@60fps", "v *= exp((-6.32"),
+    ] {
+        assert!(stdout_of(&format!("port {wish} --as step")).contains(part), "{wish}");
+        for (language, head) in [
+            ("rust", "pub fn rule("),
+            ("cpp", "void rule("),
+            ("csharp", "public static void Step("),
+            ("gdscript", "static func rule("),
+            ("javascript", "function rule("),
+            ("lua", "local function rule("),
+        ] {
+            let text = stdout_of(&format!("port {wish} --as {language}"));
+            assert!(text.contains(head), "{wish}: {text}");
+        }
+    }
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("own.step");
+    let text = stdout_of("port --frequency 2 --damping-ratio 0.3 --to per-frame --as step");
+    std::fs::write(&path, &text[text.find("# This rule").unwrap()..]).unwrap();
+    let seen = stdout_of(&format!("rule {} --fps 60", path.display()));
+    assert!(seen.contains("it is a spring of 2.000 Hz, damping ratio 0.3000"), "{seen}");
+    let refused = run("port --frequency 2 --ends --as lua");
+    assert_eq!(refused.status.code(), Some(2), "{}", stderr(&refused));
+}
+
+#[test]
 fn substeps_are_explained_for_engines_without_their_own() {
     let text = stdout_of(
         "port --frequency 2Hz --damping-ratio 0.2 --substeps 4 --to engine-chipmunk,engine-godot,engine-physx,engine-jolt",

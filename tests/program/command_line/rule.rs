@@ -69,10 +69,42 @@ fn a_spring_without_dt_is_twice_as_fast_at_twice_the_rate() {
         ("gdscript", "cos("),
         ("javascript", "Math.cos("),
         ("lua", "math.cos("),
+        ("step", " cos("),
     ] {
         assert!(code[language].as_str().unwrap().contains(part), "{language}: {found}");
     }
-    assert_eq!(code.len(), 7);
+    assert_eq!(code.len(), 8);
+}
+
+#[test]
+fn the_lines_that_a_rule_prints_are_the_same_rule_when_given_back() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("given.step");
+    for text in [
+        "v += (100*(target - x) - 10*v)*dt; x += v*dt",
+        "x += (target - x) * 0.1",
+        "v *= 0.9; x += v",
+        "v = (v + (target - x) * 0.2) * 0.7; x += v",
+        "if (target > x) x += (target - x) * 0.3; else x += (target - x) * 0.1",
+        "v -= 9.81*dt; x += v*dt; if x < 0 { x = 0; v = -0.8*v }",
+        "x = SmoothDamp(x, target, v, 0.3)",
+    ] {
+        let printed = json(&[text])["code"]["step"].as_str().unwrap().to_owned();
+        fs::write(&path, &printed).unwrap();
+        let [first, given] = [text, path.to_str().unwrap()].map(|it| json(&[it]));
+        let [first, given] = [first, given].map(|found| numbers(&at(&found, 60.0)));
+        assert_eq!(first.len(), given.len(), "{text}: {printed}");
+        for (key, value) in first {
+            let near = given.iter().find(|(it, _)| *it == key).map(|(_, it)| *it).unwrap();
+            assert!((near - value).abs() <= 1e-6 * value.abs(), "{text}, {key}: {value} {near}");
+        }
+    }
+}
+
+/// The numbers of a row, each with its key.
+fn numbers(row: &Value) -> Vec<(String, f64)> {
+    let number = |(key, value): (&String, &Value)| Some((key.clone(), value.as_f64()?));
+    row.as_object().unwrap().iter().filter_map(number).collect()
 }
 
 #[test]
