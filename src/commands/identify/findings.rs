@@ -384,7 +384,11 @@ pub(super) fn report_text(found: &Identification, log: &Log, mass: f64) -> Strin
         (Conclusion::CannotTell, Some(rival)) => {
             best.into_iter().chain([&rival.candidate]).collect()
         }
-        _ => best.into_iter().collect(),
+        // One that comes nowhere near is not named above.
+        _ => best
+            .filter(|_| found.best.as_ref().is_some_and(|it| it.residual <= FAR))
+            .into_iter()
+            .collect(),
     };
     let mut methods: Vec<&Method> = named.iter().map(|candidate| candidate.method).collect();
     methods.dedup();

@@ -355,6 +355,19 @@ fn a_motion_of_no_known_method_has_a_best_fit_with_errors() {
     assert!((0.72..0.75).contains(&hz) && found["swing"]["residual"].as_f64().unwrap() < 0.05);
 }
 
+#[test]
+fn where_no_method_comes_near_none_is_named() {
+    let (mut x, mut v, mut log) = (1.0_f64, 0.0, "t,x,v\n".to_owned());
+    for tick in 0..600 {
+        log += &format!("{:?},{x:?},{v:?}\n", f64::from(tick) / 60.0);
+        v += (-40.0 * x - 30.0 * x * x * x - 0.2 * v) / 60.0;
+        x += v / 60.0;
+    }
+    let (text, _) = identified(&log, "--tick-hz 60");
+    assert!(text.starts_with("unknown: no method comes near\n"), "{text}");
+    assert!(!text.contains("engine-"), "{text}");
+}
+
 /// Rows of semi-implicit Euler at 60 Hz with k 40 N/m, c 0.5 N s/m and 2 kg, as lines of `row`.
 fn rows_of(count: u32, row: impl Fn(u32, f64, f64) -> String) -> String {
     let (mut x, mut v, mut text) = (1.0_f64, 0.0_f64, String::new());
