@@ -6,12 +6,13 @@ use std::ops::Range;
 
 use super::fault::{ExpressionFault, Parsed, Remedy, fault, quoted};
 use super::function::{FUNCTIONS, Function, STEP_FUNCTIONS};
-use super::op::{INFIXES, Infix, Level, Op, REMAINDER, is_word};
+use super::op::{INFIXES, Infix, Level, OPERATOR_WORDS, Op, WRITTEN, is_word};
 use super::switch::{ModeRule, Switch};
 use super::token::{Token, tokens};
 use crate::curve::Curve;
 
 mod call;
+mod foreign;
 
 pub use call::MAX_POINTS;
 
@@ -255,6 +256,7 @@ impl Parser<'_> {
     /// Reads an expression, which in a step may choose: `c ? a : b`, or `a if c else b`.
     fn any(&mut self) -> Parsed<usize> {
         let value = self.operation(None)?;
+        let value = self.truncated(value)?;
         if self.consume_if("?") {
             let first = self.nested(Self::any)?;
             self.expect(":", "the first of two values")?;
@@ -300,11 +302,11 @@ impl Parser<'_> {
                 left = self.choice(left, right, other)?;
                 continue;
             }
-            if infix.op == REMAINDER.op {
+            if let Some((_, function)) = WRITTEN.iter().find(|(it, _)| it.sign == infix.sign) {
                 let operands = [self.want_number(left)?, self.want_number(right)?];
                 let span = self.span_of(left).start..self.span_of(right).end;
-                let remainder = Function::named_in_steps("fmod").expect("a row of the table");
-                left = self.written(remainder, &operands, &span);
+                let function = Function::named_in_steps(function).expect("a row of the table");
+                left = self.written(function, &operands, &span);
                 continue;
             }
             for operand in [left, right] {
@@ -329,9 +331,9 @@ impl Parser<'_> {
     /// Returns the next token as an operator, if it is one.
     fn infix(&self) -> Option<&'static Infix> {
         let sign = self.sign();
-        let is_remainder = self.scope.is_step() && ["%", "mod"].contains(&sign);
+        let mut written = WRITTEN.iter().map(|(infix, _)| infix).filter(|_| self.scope.is_step());
         let found = INFIXES.iter().find(|infix| infix.sign == sign);
-        found.or(is_remainder.then_some(&REMAINDER))
+        found.or_else(|| written.find(|infix| infix.sign == sign))
     }
 
     /// Reads the first operand of operators that bind more tightly than the level `outside`.
@@ -392,7 +394,8 @@ impl Parser<'_> {
 
     /// Reads a value and the methods that are called on it, such as `(v * dt).abs()`.
     fn methods(&mut self) -> Parsed<usize> {
-        let mut value = self.primary()?;
+        let foreign = self.foreign_value()?;
+        let mut value = foreign.map_or_else(|| self.primary(), Ok)?;
         while self.consume_if(".") {
             let (span, name) = (self.span(), self.token_text().to_owned());
             self.next += 1;
@@ -408,7 +411,7 @@ impl Parser<'_> {
             let receiver = self.want_number(value)?;
             value = self.call(function, span, Some(receiver))?;
         }
-        Ok(value)
+        self.converted(value)
     }
 
     fn primary(&mut self) -> Parsed<usize> {
@@ -478,7 +481,8 @@ impl Parser<'_> {
         if let Some(why) = self.scope.why_not(&name) {
             return fault(span, why, "remove it");
         }
-        if is_word(&name) {
+        let is_step = self.scope.is_step();
+        if is_word(&name) && (!is_step || OPERATOR_WORDS.contains(&&*name)) {
             let what = format!("`{name}` stands where a number or a name is missing");
             return fault(span, what, "write one before it");
         }
@@ -489,6 +493,10 @@ impl Parser<'_> {
     fn unknown(&self, span: Range<usize>, name: String, noun: &str) -> ExpressionFault {
         let functions = FUNCTIONS.iter().chain(&STEP_FUNCTIONS).map(|function| function.name);
         let functions = functions.filter(|name| self.scope.function(name).is_some());
+        if let Some(remedy) = foreign::remedy(&name).filter(|_| self.scope.is_step()) {
+            let what = format!("unknown {noun} `{}`", quoted(&name));
+            return ExpressionFault::new(span, what, remedy);
+        }
         let mut known: Vec<String> = if noun == "function" {
             functions.map(str::to_owned).collect()
         } else {

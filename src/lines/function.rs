@@ -125,7 +125,7 @@ pub(super) static FUNCTIONS: [Function; 21] = [
 ];
 
 /// The functions of step lines that laws do not have.
-pub(super) static STEP_FUNCTIONS: [Function; 32] = [
+pub(super) static STEP_FUNCTIONS: [Function; 39] = [
     written("lerp", &["a", "b", "part"], "a + (b - a) * part"),
     function("pow", &["base", "exponent"], Meaning::Power),
     // Halves go away from 0.
@@ -140,6 +140,15 @@ pub(super) static STEP_FUNCTIONS: [Function; 32] = [
     written("wrap", &["x", "low", "high"], "low + mod(x - low, high - low)"),
     written("min", &["a", "b", "c"], "min(min(a, b), c)"),
     written("max", &["a", "b", "c"], "max(max(a, b), c)"),
+    written("floor_divide", &["a", "b"], "floor(a / b)"),
+    // A number of another type, and a copy.
+    written("float", &["x"], "x"),
+    // three.js'.
+    written("add", &["a", "b"], "a + b"),
+    written("sub", &["a", "b"], "a - b"),
+    written("add_scaled_vector", &["a", "b", "part"], "a + b * part"),
+    written("multiply_scalar", &["a", "b"], "a * b"),
+    written("divide_scalar", &["a", "b"], "a / b"),
     written("clamp01", &["x"], "clamp(x, 0, 1)"),
     written("step", &["edge", "x"], "step(x - edge)"),
     written("smoothstep", &["low", "high", "x"], "eased(clamp01((x - low) / (high - low)))"),
@@ -208,7 +217,7 @@ static PARTS: [Function; 8] = [
 ];
 
 /// Names from other languages, each with our name. Capitals and underscores in a call do not matter.
-const ALIASES: [(&str, &str); 40] = [
+const ALIASES: [(&str, &str); 58] = [
     ("mix", "lerp"),
     ("lerpf", "lerp"),
     ("linear", "lerp"),
@@ -249,6 +258,24 @@ const ALIASES: [(&str, &str); 40] = [
     ("vInterpTo", "fInterpTo"),
     ("approach", "move_toward"),
     ("inverseLerpf", "inverse_lerp"),
+    ("double", "float"),
+    ("real", "float"),
+    ("number", "float"),
+    ("parseFloat", "float"),
+    ("f32", "float"),
+    ("f64", "float"),
+    ("clone", "float"),
+    ("int", "trunc"),
+    ("long", "trunc"),
+    ("i32", "trunc"),
+    ("i64", "trunc"),
+    ("u32", "trunc"),
+    ("usize", "trunc"),
+    ("parseInt", "trunc"),
+    ("truncf", "trunc"),
+    ("floorToInt", "floor"),
+    ("roundToInt", "round"),
+    ("ceilToInt", "ceil"),
 ];
 
 const fn function(

@@ -112,8 +112,12 @@ pub(super) const INFIXES: [Infix; 13] = [
     infix("^", Level::Power, Op::Power),
 ];
 
-/// The remainder `a % b` of step lines, which the parser writes out.
-pub(super) static REMAINDER: Infix = infix("%", Level::Product, Op::Call);
+/// The operators of step lines that the parser writes out, each with its function.
+pub(super) static WRITTEN: [(Infix, &str); 3] = [
+    (infix("%", Level::Product, Op::Call), "fmod"),
+    (infix("mod", Level::Product, Op::Call), "fmod"),
+    (infix("//", Level::Product, Op::Call), "floor_divide"),
+];
 
 const fn infix(sign: &'static str, level: Level, op: Op) -> Infix {
     Infix { sign, level, op, is_swapped: false }

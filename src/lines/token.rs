@@ -41,11 +41,18 @@ const FOREIGN: [(&str, &str); 11] = [
     ("÷", "/"),
 ];
 
+/// Python's `//` in lines whose other `//` are remarks.
+pub(super) const FLOOR_DIVISION: &str = "/\\";
+
 /// Signs of other notations that step lines have too, each with our symbol.
-const STEP_SIGNS: [(&str, &str); 11] = [
+const STEP_SIGNS: [(&str, &str); 15] = [
     ("**", "^"),
     ("&&", "and"),
     ("||", "or"),
+    ("|", "|"),
+    (FLOOR_DIVISION, "//"),
+    ("{", "{"),
+    ("}", "}"),
     ("%", "%"),
     ("−", "-"),
     ("·", "*"),

@@ -51,6 +51,7 @@ mod misuse;
 mod nets;
 mod own_methods;
 mod pacing_policies;
+mod pasted_functions;
 mod pasted_rules;
 mod picture;
 mod pinned;
