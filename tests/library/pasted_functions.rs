@@ -2,14 +2,20 @@
 
 use regatta::sim::law::Remedy;
 use regatta::tools::Rule;
+use regatta::tools::source_code::Language;
 
-use crate::rules::{FPS, frames};
+use crate::rules::{FPS, code, frames};
 
 /// A chase that most of the lines below mean.
 const CHASE: &str = "x += (target - x) * 5 * dt";
 
 /// Lines as they are pasted, each with the plain lines that it means.
-const PASTED: [(&str, &str); 8] = [
+const PASTED: [(&str, &str); 16] = [
+    // The length of a frame, or a number of that name.
+    ("h = 5; x += (target - x) * h * dt", CHASE),
+    ("var h = 0.1\nx += (target - x) * h", "x += (target - x) * 0.1"),
+    ("x += v * h", "x += v * dt"),
+    ("h = min(h, 0.01); x += v * h", "x += v * 0.01"),
     // Numbers of another type.
     ("x += (float)(target - x) * 5 * (float)dt", CHASE),
     ("x += float(target - x) * static_cast<float>(5) * dt", CHASE),
@@ -19,6 +25,11 @@ const PASTED: [(&str, &str); 8] = [
     ("x += int((target - x) / 0.4) * 0.1", "x += trunc((target - x) / 0.4) * 0.1"),
     ("x += ((target - x) / 0.4 | 0) * 0.1", "x += trunc((target - x) / 0.4) * 0.1"),
     ("x += (target - x) / 0.4 | 0", "x += trunc((target - x) / 0.4)"),
+    // A coordinate and its target by their names.
+    ("zoom = lerp(zoom, target_zoom, 0.1)", "x += (target - x) * 0.1"),
+    ("this.scale += (this.targetScale - this.scale) * 0.1", "x += (target - x) * 0.1"),
+    ("cam.fov = Mathf.Lerp(cam.fov, fovTarget, 5 * Time.deltaTime)", CHASE),
+    ("pos += (posTarget - pos) * 5 * dt", CHASE),
 ];
 
 #[test]
@@ -44,4 +55,10 @@ fn what_a_function_cannot_say_is_refused_with_its_remedy() {
         assert_eq!(fault.span, at, "{text}: {fault:?}");
         assert!(fault.what.starts_with(what) && words.contains(remedy), "{text}: {fault:?}");
     }
+}
+
+#[test]
+fn an_own_number_called_h_has_a_name_of_its_own_in_printed_code() {
+    let own = code("h = 5; if x < 3 { x += h * dt }", Language::C).text;
+    assert!(own.contains("own_h = 5") && own.contains("own_h * "), "{own}");
 }

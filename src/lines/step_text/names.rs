@@ -2,7 +2,7 @@
 
 use std::collections::HashSet;
 
-use super::{BUILT_IN, TARGET, V, X};
+use super::{BUILT_IN, H, TARGET, V, X};
 
 /// Other names of the length of a step.
 pub(super) const STEP_NAMES: [&str; 13] = [
@@ -27,7 +27,7 @@ pub(super) const OTHER_PLACE: &str = "__";
 /// Names that games use for `x`, `v` and `target`, between blanks, also with a capital. One is valid unless the text
 /// uses the original, or an earlier one.
 const OTHER_NAMES: [(usize, &str); 3] = [
-    (X, "pos position global_position cFrame value current"),
+    (X, "pos position global_position translation cFrame value current"),
     (
         V,
         "velocity vel speed vx velX vel_x hsp hspeed vspeed vy velY vel_y vsp angular_velocity angularVelocity \
@@ -75,12 +75,46 @@ pub(super) fn meant(text: &str) -> Vec<(usize, String)> {
         let mut all = small.clone().map(str::to_owned).chain(small.map(capital));
         Some((index, all.find(|name| words.contains(&**name) && !is_other(name))?))
     };
-    [X, V, TARGET].into_iter().filter_map(word).collect()
+    let mut all: Vec<(usize, String)> = [X, V, TARGET].into_iter().filter_map(word).collect();
+    let found = |wanted: usize| all.iter().find(|(index, _)| *index == wanted);
+    if found(TARGET).is_none()
+        && let Some(pair) = of_own_target(text, &words, found(X).map(|(_, place)| &**place))
+    {
+        all.retain(|(index, _)| *index != X);
+        all.extend(pair);
+    }
+    all
 }
 
-/// Returns the names of the length of a step that the lines take for another number.
-pub(super) fn other_lengths(text: &str) -> Vec<&'static str> {
-    STEP_NAMES.into_iter().filter(|name| is_set(text, name, false)).collect()
+/// Returns the first assigned name of a text that has a target by its name, such as `zoom` beside `target_zoom`. If the
+/// text has a place, only that can be it.
+fn of_own_target(
+    text: &str,
+    words: &HashSet<&str>,
+    place: Option<&str>,
+) -> Option<[(usize, String); 2]> {
+    let is_place = |word: &&str| !word.is_empty() && place.is_none_or(|place| place == *word);
+    let mut places: Vec<&str> = words.iter().copied().filter(is_place).collect();
+    places.sort_unstable();
+    places.into_iter().find_map(|place| {
+        let [small, large] = [place.to_owned(), capital(place)];
+        let targets = [
+            format!("target_{small}"),
+            format!("target{large}"),
+            format!("{small}_target"),
+            format!("{small}Target"),
+        ];
+        let is_assigned = || after_each(text, place).any(assigns);
+        let found = targets.into_iter().find(|target| words.contains(&**target))?;
+        is_assigned().then_some([(X, small), (TARGET, found)])
+    })
+}
+
+/// Returns the names of the length of a step that the lines take for another number. Only the lines of a rule may take
+/// the first.
+pub(super) fn other_lengths(text: &str, is_rule: bool) -> Vec<&'static str> {
+    let short = Some(BUILT_IN[H]).filter(|_| is_rule);
+    short.into_iter().chain(STEP_NAMES).filter(|name| is_set(text, name, false)).collect()
 }
 
 /// Whether the lines set a number of this name before they read it: once and to digits, if it `is_constant`.
@@ -97,7 +131,7 @@ fn is_set(text: &str, name: &str, is_constant: bool) -> bool {
 }
 
 /// Returns the text after each place where this word stands.
-fn after_each<'t>(text: &'t str, word: &str) -> impl Iterator<Item = &'t str> {
+pub(super) fn after_each<'t>(text: &'t str, word: &str) -> impl Iterator<Item = &'t str> {
     let is_part = |c: char| c.is_ascii_alphanumeric() || c == '_';
     let around = move |(at, _)| [&text[..at], &text[at + word.len()..]];
     text.match_indices(word)

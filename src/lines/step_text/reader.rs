@@ -9,18 +9,19 @@ pub(super) use spin::SPIN_NAMES;
 use values::CONSTANTS;
 
 use super::method::{Array, Function as OwnFunction, Machine, Taken};
-use super::names::{STEP_NAMES, meant, other_lengths};
+use super::names::{meant, other_lengths};
 use super::paths::{SMOOTH_DAMP, damped_velocity};
 use super::statements::{Declares, Statement};
 use super::{BUILT_IN, Carried, H, Line, StepText, TARGET, V, X};
 use crate::expression::{Expression, Node, Scope, parse, parse_condition};
 use crate::fault::{ExpressionFault, Parsed, Remedy, fault, quoted};
 use crate::function::Function;
-use crate::op::{OPERATOR_WORDS, Op};
+use crate::op::Op;
 use crate::tape::{MAX_OPERATIONS, MAX_SWITCHES, Tape};
 use crate::token::is_name_part;
 
 mod assignment;
+mod declared;
 mod frames;
 mod functions;
 mod spin;
@@ -164,7 +165,8 @@ impl<'t> Reader<'t> {
     ) -> Parsed<StepText> {
         let mut reader = Self::new(text, method_at.or_else(|| first_call(text)), Vec::new());
         reader.names = BUILT_IN.map(String::from).to_vec();
-        (reader.meant, reader.other_lengths) = (meant(text), other_lengths(text));
+        let is_rule = !reader.is_method();
+        (reader.meant, reader.other_lengths) = (meant(text), other_lengths(text, is_rule));
         reader.is_carried = vec![true; BUILT_IN.len()];
         reader.starts = vec![0.0; BUILT_IN.len()];
         reader.values = vec![None; BUILT_IN.len()];
@@ -259,62 +261,6 @@ impl<'t> Reader<'t> {
     fn may_read(&self, index: usize) -> bool {
         let is_free = self.is_function || self.is_loop || !self.is_method();
         is_free || index != TARGET || self.takes_target
-    }
-
-    fn index(&self, name: &str) -> Option<usize> {
-        if self.is_function || self.is_loop {
-            return self.names.iter().position(|known| known == name);
-        }
-        if STEP_NAMES.contains(&name) && !self.other_lengths.contains(&name) {
-            return Some(H);
-        }
-        let meant = self.meant.iter().find(|(_, word)| word == name);
-        let known = || self.names.iter().position(|known| known == name);
-        meant.map(|(index, _)| *index).or_else(known)
-    }
-
-    /// Returns the name that a statement declares. If the lines read a memory as `memory.name`, the name includes that
-    /// prefix.
-    fn declared(&self, span: Range<usize>, is_memory: bool) -> String {
-        let name = &self.text[span];
-        let field = format!("{FIELD}{name}");
-        if is_memory && self.text.contains(&field) { field } else { name.to_owned() }
-    }
-
-    fn declare(&mut self, span: Range<usize>, is_carried: bool, is_memory: bool) -> Parsed<()> {
-        let name = &*self.declared(span.clone(), is_memory);
-        if OPERATOR_WORDS.contains(&name) || name == "pi" {
-            let what = format!("`{}` has a meaning of its own in expressions", quoted(name));
-            return fault(span, what, "give it another name");
-        }
-        match self.index(name) {
-            Some(index) if self.is_loop && index < FRAME_NAMES.len() => {
-                let what = format!("`{name}` is told to the loop, and no line may change it");
-                return fault(span, what, "give the number another name");
-            }
-            Some(TARGET) if !self.is_function => {
-                let remedy = "give the number another name, such as `goal`";
-                return fault(
-                    span,
-                    "`target` is the goal of `x`, and no line may change it",
-                    remedy,
-                );
-            }
-            Some(index) => self.is_carried[index] |= is_carried,
-            None if self.names.len() == MAX_STEP_NAMES => {
-                let what = format!("the lines have more than {} names", MAX_STEP_NAMES - 4);
-                return fault(span, what, "use fewer");
-            }
-            None => self.add_name(name, is_carried),
-        }
-        Ok(())
-    }
-
-    fn add_name(&mut self, name: &str, is_carried: bool) {
-        self.names.push(name.to_owned());
-        self.is_carried.push(is_carried);
-        self.starts.push(0.0);
-        self.values.push(None);
     }
 
     /// Consumes the next statement.
