@@ -432,7 +432,7 @@ mod tests {
             ("x +=", 4..4, "the expression is empty"),
             ("x = 1\n/* v", 6..8, "the remark is not closed"),
             ("x = damped(1)", 4..10, "unknown function `damped`"),
-            ("while x < 1 { x += 1 }", 0..5, "`while` cannot stand in a rule"),
+            ("while x < 1 { x += v }", 0..5, "`while` cannot stand in a rule"),
             ("fail; x = 1", 0..4, "`fail` cannot stand in a rule"),
             ("qw = qw; let k = y", 17..18, "unknown name `y`"),
             ("use unit\nqw *= unit(qw, qx, qy, qz)", 4..8, "these lines step a free spin in space"),

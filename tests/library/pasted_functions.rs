@@ -10,7 +10,7 @@ use crate::rules::{FPS, code, frames};
 const CHASE: &str = "x += (target - x) * 5 * dt";
 
 /// Lines as they are pasted, each with the plain lines that it means.
-const PASTED: [(&str, &str); 16] = [
+const PASTED: [(&str, &str); 18] = [
     // The length of a frame, or a number of that name.
     ("h = 5; x += (target - x) * h * dt", CHASE),
     ("var h = 0.1\nx += (target - x) * h", "x += (target - x) * 0.1"),
@@ -25,6 +25,12 @@ const PASTED: [(&str, &str); 16] = [
     ("x += int((target - x) / 0.4) * 0.1", "x += trunc((target - x) / 0.4) * 0.1"),
     ("x += ((target - x) / 0.4 | 0) * 0.1", "x += trunc((target - x) / 0.4) * 0.1"),
     ("x += (target - x) / 0.4 | 0", "x += trunc((target - x) / 0.4)"),
+    // Angles that are wrapped.
+    (
+        "let a = v * 500; while (a > 180) a -= 360; while (a < -180) a += 360; x = a",
+        "x = mod(v * 500 + 180, 360) - 180",
+    ),
+    ("x += v * 9\nwhile x >= 2*PI:\n\tx -= 2*PI", "x = mod(x + v * 9, 2*pi)"),
     // A coordinate and its target by their names.
     ("zoom = lerp(zoom, target_zoom, 0.1)", "x += (target - x) * 0.1"),
     ("this.scale += (this.targetScale - this.scale) * 0.1", "x += (target - x) * 0.1"),
@@ -45,6 +51,8 @@ fn lines_in_a_function_move_as_the_plain_lines_that_they_mean() {
 #[test]
 fn what_a_function_cannot_say_is_refused_with_its_remedy() {
     for (text, at, what, remedy) in [
+        ("while x < target: x += v", 0..5, "`while` cannot stand in a rule", "angle_difference"),
+        ("while x > 3: x += 3", 0..5, "`while` cannot stand in a rule", "wrap(x, -pi, pi)"),
         ("x += v as str", 10..13, "`str` is no type of a number", "trunc(x)"),
         ("x += v | 1", 7..8, "`|` has no meaning here", "write `or`"),
         ("x = Quaternion.Slerp(x, target, 0.1)", 15..20, "unknown function `slerp`", "lerp_angle"),

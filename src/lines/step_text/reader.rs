@@ -26,6 +26,7 @@ mod frames;
 mod functions;
 mod spin;
 mod values;
+mod winding;
 
 /// The maximum number of names of a text. It is so small that the bits of one word can represent a set of names.
 const MAX_STEP_NAMES: usize = 64;
@@ -89,6 +90,10 @@ pub(super) struct Reader<'t> {
     /// Whether the value of `SmoothDamp` is the velocity that it leaves.
     damps_velocity: bool,
 }
+
+/// The remedy for a loop in a rule.
+const NO_LOOPS: &str = "write the lines of one step, which has no loops; an angle is wrapped by \
+    `wrap(x, -pi, pi)`, and the way to another is `angle_difference(x, target)`";
 
 /// The place that `SmoothDamp` leaves, until the velocity is assigned.
 const DAMPED_PLACE: &str = "damped_place";
@@ -245,8 +250,10 @@ impl<'t> Reader<'t> {
                 let end = end_of(all, at);
                 self.read_function(name.clone(), inputs.clone(), all, at + 1..end)?;
                 at = end;
-            } else {
+            } else if !self.read_winding(&all[at..])? {
                 self.read_statement(statement.clone())?;
+            } else {
+                at += 2;
             }
             at += 1;
         }
@@ -309,7 +316,7 @@ impl<'t> Reader<'t> {
             }
             Statement::If(condition) => self.open(condition, false),
             Statement::While(word, condition) => {
-                self.expect_method(&word, "write the lines of one step, which has no loops")?;
+                self.expect_method(&word, NO_LOOPS)?;
                 self.open_loop(condition)
             }
             Statement::Return { word, value } => {
