@@ -109,7 +109,7 @@ pub(super) fn read(written: &str) -> Result<(String, String), Error> {
             Error::mistake(format!("cannot read standard input: {error}; give a file"))
         })?;
         ("standard input".to_owned(), bytes)
-    } else if written.contains('=') && !path.exists() {
+    } else if written.contains(['=', '(']) && !path.exists() {
         return Ok(("rule".into(), written.to_owned()));
     } else {
         let name = brief(path);

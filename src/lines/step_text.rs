@@ -21,7 +21,7 @@ use paths::of_one_component;
 use plain::plain;
 use reader::{Reader, SPIN_NAMES};
 pub use statements::Declares;
-use statements::statements;
+use statements::{statements, with_floor_divisions, without_heads};
 pub use tree::MethodInput;
 pub use tree::{Operation, StepBody, bracketed};
 
@@ -179,8 +179,9 @@ impl StepText {
     }
 
     fn read_lines(text: &str, method_at: Option<Range<usize>>) -> Result<Self, ExpressionFault> {
-        let (mut plain, components) = plain(text);
+        let (mut plain, components) = plain(&with_floor_divisions(text));
         let all = statements(&plain, text)?;
+        let all = without_heads(&mut plain, all)?;
         let (statements, left_out) = of_one_component(&mut plain, all, &components)?;
         let read = Reader::read(&plain, method_at, &statements)?;
         Ok(Self { source: text.to_owned(), left_out, ..read }.timed())
@@ -524,6 +525,15 @@ mod tests {
             "table(x, [[0, 1], [1, 2]])",
             "x = ",
             "x += v;",
+            "void f(",
+            "function (x)",
+            "class ",
+            "=> {",
+            "def f():\n ",
+            "|0",
+            " as f32",
+            "(int)",
+            "@x(",
         ];
         for _ in 0..20_000 {
             let text: String = (0..next() % 24).map(|_| pieces[next() % pieces.len()]).collect();

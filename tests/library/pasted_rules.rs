@@ -418,7 +418,7 @@ fn a_frame_length_has_its_unit_and_a_rule_its_own_end() {
 /// Set `RULES` for more lines.
 #[test]
 fn a_thousand_random_lines_are_answered_or_refused_at_a_place() {
-    const PIECES: [&str; 64] = [
+    const PIECES: [&str; 77] = [
         "x",
         "v",
         "target",
@@ -483,6 +483,19 @@ fn a_thousand_random_lines_are_answered_or_refused_at_a_place() {
         "if x > 1 { v = -v }; ",
         "if abs(target - x) < 0.1 { ",
         "x = target }; ",
+        "while x > 2: x -= 3\n",
+        "while x",
+        "(float)",
+        " as f32",
+        " | 0",
+        " // 2",
+        "void Update() {",
+        "function f(dt) ",
+        "def f(self):\n\t",
+        "=> {",
+        "pass",
+        "@export(",
+        "[Range",
     ];
     const LINES: [&str; 9] = [
         "x += v * dt; ",

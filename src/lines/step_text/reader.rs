@@ -341,6 +341,9 @@ impl<'t> Reader<'t> {
             | Statement::Tick { .. }
             | Statement::Show { .. }
             | Statement::Array { .. }) => self.read_frame_statement(statement),
+            Statement::Head { at, .. } => {
+                fault(at, "a function cannot stand here", "write the lines inside the function")
+            }
             Statement::Takes(_) | Statement::Function { .. } => Ok(()),
             Statement::Use(name) => self.use_shared(name),
             Statement::Else(condition, brace) => {

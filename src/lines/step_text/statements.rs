@@ -3,12 +3,15 @@
 use std::collections::VecDeque;
 use std::ops::Range;
 
-use blocks::Ends;
+use blocks::{Ends, is_choice};
 
 use crate::fault::{Parsed, fault, quoted};
 use crate::token::{is_name_part, is_name_start};
 
 mod blocks;
+mod heads;
+
+pub(super) use heads::{with_floor_divisions, without_heads};
 
 /// A statement with the byte ranges of its parts.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -44,6 +47,8 @@ pub(super) enum Statement {
     Use(Range<usize>),
     /// `fn name(inputs) {`.
     Function { name: Range<usize>, inputs: Range<usize> },
+    /// The head of a function or a class around the lines.
+    Head { at: Range<usize>, is_function: bool },
     /// `return value`.
     Return { word: Range<usize>, value: Range<usize> },
     /// `fail` or `stay`, and whether the step fails.
@@ -69,7 +74,7 @@ impl Statement {
     /// The number of blocks that the statement opens, less those that it closes.
     pub(super) fn depth(&self) -> i32 {
         match self {
-            Self::If(_) | Self::While(..) | Self::Function { .. } => 1,
+            Self::If(_) | Self::While(..) | Self::Function { .. } | Self::Head { .. } => 1,
             Self::End(_) => -1,
             _ => 0,
         }
@@ -77,10 +82,12 @@ impl Statement {
 }
 
 /// Words that declare a number in some language.
-const DECLARERS: [&str; 14] = [
-    "let", "var", "const", "float", "double", "auto", "local", "mut", "final", "static", "count",
-    "val", "Vector2", "Vector3",
-];
+const DECLARERS: &str = "let var const float double auto local mut final static count val Vector2 Vector3 \
+    export onready public private protected readonly internal";
+
+fn is_declarer(word: &str) -> bool {
+    DECLARERS.split_whitespace().any(|declarer| declarer == word)
+}
 
 /// Words that begin a line which no step can have, each with a remedy.
 const REFUSED: [(&str, &str); 5] = [
@@ -114,7 +121,8 @@ pub(super) fn statements(text: &str, source: &str) -> Parsed<Vec<Statement>> {
     if let Some(at) = text.find("/*") {
         return fault(at..at + 2, "the remark is not closed", "write `*/` at its end");
     }
-    let mut reader = Reader { text, source, at: 0, blocks: Vec::new(), read: VecDeque::new() };
+    let (blocks, heads, read) = (Vec::new(), Vec::new(), VecDeque::new());
+    let mut reader = Reader { text, source, at: 0, blocks, heads, read };
     let mut statements = Vec::new();
     loop {
         let before = reader.at;
@@ -156,6 +164,8 @@ struct Reader<'t> {
     at: usize,
     /// The end of each open block.
     blocks: Vec<Ends>,
+    /// The number of blocks around each open function.
+    heads: Vec<usize>,
     /// Statements of the last line that are still to be returned.
     read: VecDeque<Statement>,
 }
@@ -187,10 +197,14 @@ impl Reader<'_> {
             ahead => ahead,
         };
         self.note_statement(statement.as_ref());
+        self.end_head();
         Ok(statement)
     }
 
     fn statement(&mut self) -> Parsed<Option<Statement>> {
+        if let Some(foreign) = self.attribute_or_head()? {
+            return Ok(Some(foreign));
+        }
         let start = self.at;
         match (self.rest().chars().next(), &self.text[self.name()]) {
             (None, _) => Ok(None),
@@ -307,6 +321,8 @@ impl Reader<'_> {
             match sign {
                 '(' | '[' => depth += 1,
                 ')' | ']' => depth -= 1,
+                '{' if is_choice(&self.rest()[..at]) => depth += 1,
+                '}' if is_choice(&self.rest()[..at]) && depth > 0 => depth -= 1,
                 ';' | '{' | '}' => return self.at + at,
                 ',' if depth <= 0 => return self.at + at,
                 _ if self.is_worded() && begins_word(self.rest(), at, &WORDS) => {
@@ -334,7 +350,10 @@ impl Reader<'_> {
             return fault(name, format!("`{word}` cannot stand in a step"), *remedy);
         }
         let is_memory = &self.text[name.clone()] == "memory";
-        while is_memory && declares.is_none() || DECLARERS.contains(&&self.text[name.clone()]) {
+        while is_memory && declares.is_none()
+            || is_declarer(&self.text[name.clone()])
+            || declares.is_some() && self.is_followed_by_name()
+        {
             let declared = match &self.text[name.clone()] {
                 "const" => Declares::Constant,
                 "count" => Declares::Counter,
@@ -380,7 +399,20 @@ impl Reader<'_> {
         let operator = ASSIGNMENTS.iter().find(|(sign, _)| self.rest().starts_with(sign));
         let Some((sign, joins)) = operator.filter(|_| !self.rest().starts_with("==")) else {
             let (what, remedy) = match self.rest().chars().next() {
+                _ if declares.is_some() && self.is_line_end() => return Ok(Statement::Blank),
+                Some('.') if self.is_change(&name) => {
+                    let value = name.start..end;
+                    self.at = end;
+                    return Ok(Statement::Assign { name, joins: "", value, declares: None });
+                }
+                Some('(' | '.') if self.is_call_of_base(&name) => {
+                    self.at = end;
+                    return Ok(Statement::Blank);
+                }
                 Some('.' | '[') => (one_part(self), ONE_NUMBER),
+                Some('(') if written.eq_ignore_ascii_case("move_and_slide") => {
+                    (format!("`{written}(…)` is a call"), "write `x += v * dt` in its place")
+                }
                 Some('(') => (
                     format!("`{written}(…)` is a call"),
                     "write an assignment, such as `x += v * dt`",
@@ -465,6 +497,7 @@ mod tests {
             Statement::Takes(input) => format!("takes {}", of(input)),
             Statement::Use(name) => format!("use {}", of(name)),
             Statement::Function { name, inputs } => format!("fn {} {}", of(name), of(inputs)),
+            Statement::Head { at, .. } => format!("around {}", of(at)),
             Statement::Return { value, .. } => format!("return {}", of(value)),
             Statement::Stop(word, _) => of(word),
             Statement::Else(condition, _) => format!("else {}", condition.map_or("".into(), of)),

@@ -94,7 +94,7 @@ impl Reader<'_> {
             is_one_line &= sign != '\n' || depth > 0;
             let begins = match sign {
                 '{' | ';' | '}' => true,
-                't' => begins_word(rest, at, &["then"]),
+                't' | 'b' | 'd' => begins_word(rest, at, &BEGINNINGS),
                 ':' if depth == 0 && is_one_line => {
                     let is_path = rest[..at].ends_with(':') || after.starts_with([':', '=']);
                     !is_path && !rest[..at].contains('?')
@@ -120,7 +120,9 @@ impl Reader<'_> {
         let (ends, length) = match self.rest().chars().next() {
             Some('{') => (Ends::Brace, 1),
             Some(':') => (Ends::Line(word.start), 1),
-            Some('t') if begins_word(self.rest(), 0, &["then"]) => (Ends::Word, 4),
+            Some('t' | 'b' | 'd') if begins_word(self.rest(), 0, &BEGINNINGS) => {
+                (Ends::Word, self.name().len())
+            }
             Some(c) if c.is_ascii_whitespace() || is_name_start(c) => (Ends::Statement(false), 0),
             _ => return fault(word, NO_BLOCK, "write `if condition { … }`"),
         };
@@ -160,6 +162,9 @@ impl Reader<'_> {
             self.at = self.name().end;
             self.skip(blank);
         }
+        if declares.is_some() && self.is_line_end() {
+            return Ok(Statement::Blank);
+        }
         let whole = names[0].start..self.at;
         let mut values = Vec::new();
         let mut sign = if self.rest().starts_with("==") { "" } else { "=" };
@@ -194,6 +199,14 @@ impl Reader<'_> {
     }
 }
 
+/// Whether a statement up to a brace chooses its value: `let k = if c { a } else { b }`.
+pub(super) fn is_choice(before: &str) -> bool {
+    let value = before.split_once('=').map(|(_, value)| value.trim_start());
+    value.is_some_and(|value| begins_word(value, 0, &["if"]))
+}
+
+/// Words that begin a block, which `end` ends.
+const BEGINNINGS: [&str; 3] = ["then", "begin", "do"];
 /// Words that may follow a part of a condition in brackets.
-const JOINS: [&str; 4] = ["and", "or", "then", "mod"];
+const JOINS: [&str; 6] = ["and", "or", "then", "begin", "do", "mod"];
 const NO_BLOCK: &str = "no `{` opens the block";
