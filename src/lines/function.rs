@@ -41,6 +41,8 @@ pub(super) struct Smooth {
     pub(super) jet: fn(Jet, Jet) -> Jet,
     /// Whether a full turn of the argument leaves the value unchanged.
     pub(super) is_periodic: bool,
+    /// Whether the value is a whole number.
+    pub(super) rounds: bool,
 }
 
 impl PartialEq for Smooth {
@@ -129,7 +131,7 @@ pub(super) static STEP_FUNCTIONS: [Function; 39] = [
     written("lerp", &["a", "b", "part"], "a + (b - a) * part"),
     function("pow", &["base", "exponent"], Meaning::Power),
     // Halves go away from 0.
-    smooth("round", &["x"], |x, _| libm::round(x), |x, _| constant(libm::round(x[0]))),
+    smooth("round", &["x"], |x, _| libm::round(x), |x, _| constant(libm::round(x[0]))).rounding(),
     unary!("sinh", |x| f = libm::sinh(x), [libm::cosh(x), f]),
     unary!("cosh", |x| f = libm::cosh(x), [libm::sinh(x), f]),
     written("ceil", &["x"], "-floor(-x)"),
@@ -300,7 +302,8 @@ const fn smooth(
     value: fn(f64, f64) -> f64,
     jet: fn(Jet, Jet) -> Jet,
 ) -> Function {
-    function(name, arguments, Meaning::Smooth(Smooth { value, jet, is_periodic: false }))
+    let smooth = Smooth { value, jet, is_periodic: false, rounds: false };
+    function(name, arguments, Meaning::Smooth(smooth))
 }
 
 const fn switch(
@@ -316,6 +319,13 @@ impl Function {
     const fn periodic(mut self) -> Self {
         if let Meaning::Smooth(smooth) = &mut self.meaning {
             smooth.is_periodic = true;
+        }
+        self
+    }
+
+    const fn rounding(mut self) -> Self {
+        if let Meaning::Smooth(smooth) = &mut self.meaning {
+            smooth.rounds = true;
         }
         self
     }

@@ -63,6 +63,15 @@ impl Op {
         }
     }
 
+    /// Whether the value is a whole number near that of the operand.
+    pub(super) fn rounds(self) -> bool {
+        match self {
+            Op::Smooth(smooth) => smooth.rounds,
+            Op::Switch(switch) => switch.pieces == ModeRule::Floor,
+            _ => false,
+        }
+    }
+
     /// Whether the operation reads a table.
     pub(super) fn is_table(self) -> bool {
         self == Op::Switch(Switch::TABLE)

@@ -271,6 +271,28 @@ impl Tape {
         self.switches.iter().map(|(_, Instruction { operands: [a, b, _], .. })| [*a, *b])
     }
 
+    /// Returns the operand, the slot and the byte range of each operation that rounds.
+    pub(super) fn roundings(&self) -> impl Iterator<Item = ([u16; 2], &Range<usize>)> {
+        let all = self.operations().filter(|(op, ..)| op.rounds());
+        all.map(|(_, operands, to, _)| ([operands[0], to], &self.origins[&to].span))
+    }
+
+    /// Returns whether a comparison is true in a mode; `None` for another switch.
+    pub(super) fn truth(&self, index: usize, mode: i64) -> Option<bool> {
+        let (switch, _) = self.switches[index];
+        switch.is_truth().then(|| switch.value_on(mode, 0.0, 0.0, None) == 1.0)
+    }
+
+    /// Returns the slot and the byte range of each condition that joins others by `and`, `or` or `not`, and chooses a
+    /// number.
+    pub(super) fn joined(&self) -> impl Iterator<Item = (u16, &Range<usize>)> {
+        let slots: Vec<u16> =
+            self.operations().filter(|it| it.0 == Op::If).map(|it| it.1[0]).collect();
+        let joins = |op: Op| matches!(op, Op::And | Op::Or | Op::Not);
+        let all = self.operations().filter(move |(op, _, to, _)| joins(*op) && slots.contains(to));
+        all.map(|(_, _, to, _)| (to, &self.origins[&to].span))
+    }
+
     /// Returns the number of switches.
     pub fn switches(&self) -> usize {
         self.switches.len()

@@ -1,5 +1,7 @@
 //! The map of a step of a rule, with its derivatives and the pieces of its switches.
 
+use std::ops::Range;
+
 use super::{H, StepText, SwitchKind, TARGET};
 use crate::jet::Jet;
 
@@ -41,7 +43,8 @@ impl StepText {
 }
 
 impl StepText {
-    /// Returns the modes of the switches in a step of `h` seconds from these carried numbers.
+    /// Returns the modes of the switches in a step of `h` seconds from these carried numbers. An equality has mode 0
+    /// where its numbers are equal, and else 1.
     pub fn modes(&self, h: f64, at: &[f64], target: f64) -> Vec<i64> {
         let mut slots = vec![0.0; self.tape.slots];
         (slots[H], slots[TARGET]) = (h, target);
@@ -52,6 +55,9 @@ impl StepText {
         self.tape.evaluate(&mut slots);
         let mut modes = vec![0; self.tape.switches()];
         self.tape.write_modes(&slots, &mut modes);
+        for (index, mode) in modes.iter_mut().enumerate().filter(|(_, mode)| **mode < 0) {
+            *mode = if self.is_equality(index) { 1 } else { *mode };
+        }
         modes
     }
 
@@ -74,5 +80,70 @@ impl StepText {
         self.tape
             .switch_origins()
             .map(|(kind, span)| (kind, self.source.get(span.clone()).unwrap_or_default().trim()))
+    }
+
+    /// Returns whether the comparison with this index is true in a mode; `None` for a switch of another kind.
+    pub fn truth(&self, index: usize, mode: i64) -> Option<bool> {
+        self.tape.truth(index, mode)
+    }
+
+    /// Whether the switch with this index compares by `==` or `!=`.
+    pub fn is_equality(&self, index: usize) -> bool {
+        self.truth(index, 1).is_some_and(|truth| self.truth(index, -1) == Some(truth))
+    }
+
+    /// Returns the modes in a step of `h` seconds near a rest at 0, where no compared numbers are equal.
+    pub fn modes_apart(&self, h: f64) -> Vec<i64> {
+        let mut modes = self.modes(h, &vec![0.0; self.carried.len()], 0.0);
+        for (index, mode) in modes.iter_mut().enumerate() {
+            *mode += i64::from(*mode == 0 && self.is_equality(index));
+        }
+        modes
+    }
+
+    /// Returns the source of each condition of several comparisons, and its truth in each of these modes.
+    pub fn joined(&self, h: f64, modes: &[Vec<i64>]) -> Vec<(&str, Vec<bool>)> {
+        let mut slots = vec![0.0; self.tape.slots];
+        slots[H] = h;
+        self.tape.prepare::<1>(slots.as_chunks_mut().0);
+        let mut truth = |slot: u16, modes: &Vec<i64>| {
+            self.tape.evaluate_on(modes, &mut slots);
+            slots[usize::from(slot)] == 1.0
+        };
+        let mut of = |slot: u16| modes.iter().map(|modes| truth(slot, modes)).collect();
+        self.tape
+            .joined()
+            .map(|(slot, span)| (self.source.get(span.clone()).unwrap_or_default(), of(slot)))
+            .collect()
+    }
+
+    /// Returns the source of each rounding that decides the next value of these carried numbers, and whose operand they
+    /// move, with the derivatives of the operand near 0.
+    pub fn roundings(&self, h: f64, state: &[usize]) -> Vec<(&str, Vec<f64>)> {
+        let mut decides = vec![false; self.tape.slots];
+        for index in state {
+            decides[usize::from(self.tape.outputs[*index])] = true;
+        }
+        let operations: Vec<_> = self.tape.operations().collect();
+        for (_, operands, to, _) in operations.into_iter().rev() {
+            if decides[usize::from(to)] {
+                operands.iter().for_each(|operand| decides[usize::from(*operand)] = true);
+            }
+        }
+        let mut slopes = vec![Vec::new(); self.tape.slots];
+        let mut slots: Vec<Jet> = vec![[0.0; 3]; self.tape.slots];
+        for index in state {
+            slots[..self.names.len()].fill([0.0; 3]);
+            slots[H][0] = h;
+            slots[self.carried[*index].input][1] = 1.0;
+            self.tape.evaluate_jets(&mut slots);
+            slopes.iter_mut().zip(&slots).for_each(|(slopes, [_, slope, _])| slopes.push(*slope));
+        }
+        let all = self.tape.roundings().filter(|([_, to], _)| decides[usize::from(*to)]);
+        let rounding = |([operand, _], span): ([u16; 2], &Range<usize>)| {
+            let source = self.source.get(span.clone()).unwrap_or_default().trim();
+            (source, slopes[usize::from(operand)].clone())
+        };
+        all.map(rounding).filter(|it| it.1.iter().any(|slope| *slope != 0.0)).collect()
     }
 }
