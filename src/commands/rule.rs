@@ -20,7 +20,7 @@ use crate::sim::number::{round, significant};
 use crate::tools::Rule;
 use crate::tools::port::{PortOutcome, UI_SPRINGS, Wish, followers};
 use crate::tools::rule::{
-    BouncesSeen, Course, Piece, RuleBounce, UNITS, VisibleMotion, rule_scene,
+    BouncesSeen, Course, Piece, ROUNDED_START, RuleBounce, UNITS, VisibleMotion, rule_scene,
 };
 use crate::tools::source_code::{CodeForm, Language};
 
@@ -167,7 +167,7 @@ fn object(rule: &Rule, written: &str) -> Value {
         json!({
             "condition": piece.condition,
             "course": outcome(piece, rule),
-            "seen": piece.rule.motions().into_iter().map(seen).collect::<Vec<_>>(),
+            "seen": piece.motions().into_iter().map(seen).collect::<Vec<_>>(),
         })
     };
     let spring =
@@ -228,7 +228,7 @@ const COLUMNS: &[Column<VisibleMotion>] = &[
     Column::shown("settles", "1 % AFTER s", |seen| digits(seen.settles_s, 4)),
     Column::shown("grows", "GROWS", |seen| seen.grows.into()),
 ];
-/// Columns of a driven rule.
+/// Columns of a driven rule, the last of which a jump alone has.
 const DRIVEN: &[Column<VisibleMotion>] = &[
     Column::shown("fps", "FPS", |seen| seen.fps.to_string().into()),
     Column::shown("top", "TOP SPEED", |seen| digits(seen.top_speed, 4)),
@@ -236,6 +236,8 @@ const DRIVEN: &[Column<VisibleMotion>] = &[
     Column::shown("height", "JUMPS", |seen| digits(seen.jump.map(|[height, _]| height), 4)),
     Column::shown("lasts", "LASTS s", |seen| digits(seen.jump.map(|[_, seconds]| seconds), 4)),
 ];
+/// Number of columns without a jump.
+const WITHOUT_JUMP: usize = 3;
 
 /// Part by which a drive may differ between frame rates before a line says so.
 const SAME_DRIVE: f64 = 0.01;
@@ -287,7 +289,10 @@ fn tables(rule: &Rule) -> String {
 fn drive(rule: &Rule, motions: &[VisibleMotion]) -> String {
     let mut said = String::new();
     if motions.iter().any(is_driven) {
-        said += &text(DRIVEN, motions, "  ");
+        let jumps = motions.iter().any(|seen| seen.jump.is_some());
+        let columns = if jumps { DRIVEN } else { &DRIVEN[..WITHOUT_JUMP] };
+        said += &text(columns, motions, "  ");
+        said += if rule.has_speeds_of_v() { "speeds are in the units of v\n" } else { "" };
         said += &uneven_drive(motions).unwrap_or_default();
     }
     if let Some(speed) = rule.jump_speed() {
@@ -346,6 +351,10 @@ fn outcome(piece: &Piece, whole: &Rule) -> String {
             format!("it stops at once{}", reached.unwrap_or_default())
         }
         (Some(Course::Stays), _) => "it stays where it is".into(),
+        (Some(Course::Once), _) => format!("once, {}", frame(piece)),
+        (Some(Course::Sets), _) => frame(piece),
+        (Some(Course::Brakes(gain)), _) => format!("it brakes by {} a second", number(gain)),
+        (Some(Course::Rounded), _) => rounded(piece),
         (Some(Course::ByTarget), _) => "it moves at a speed that the target decides".into(),
         (Some(Course::Moves(speed)), _) => {
             let other = piece.rule.motion_at(2.0 * piece.rule.fps());
@@ -354,10 +363,17 @@ fn outcome(piece: &Piece, whole: &Rule) -> String {
             let rate = if is_alike { ", at every frame rate" } else { "" };
             format!("it moves at a constant {} a second{rate}", number(speed))
         }
-        (None, VisibleMotion { hz: Some(_), spring: Some(spring), .. }) => {
+        (None, VisibleMotion { hz, spring: Some(spring), settles_s, .. })
+            if hz.or(settles_s).is_some() =>
+        {
             let ratio = spring.damping_ratio().map(number);
             let ratio = ratio.map_or(String::new(), |ratio| format!(", damping ratio {ratio}"));
-            format!("a spring of {} Hz{ratio}", number(spring.undamped_hz()))
+            let rest = match hz {
+                None if piece.rests_at_target() => "it comes to rest at the target: ",
+                None => "it comes to rest: ",
+                Some(_) => "",
+            };
+            format!("{rest}a spring of {} Hz{ratio}", number(spring.undamped_hz()))
         }
         (None, VisibleMotion { accelerates: Some(gain), top_speed: None, .. }) => {
             format!("the speed changes by {} a second", number(gain.abs()))
@@ -366,6 +382,40 @@ fn outcome(piece: &Piece, whole: &Rule) -> String {
         (None, seen) if seen.grows => "it grows".into(),
         (None, _) => "it moves on".into(),
     }
+}
+
+/// Describes what a frame of a piece sets.
+fn frame(piece: &Piece) -> String {
+    let (mut said, all) = (String::from("it "), piece.sets());
+    for (index, (name, value)) in all.iter().enumerate() {
+        let and = if index == 0 { "" } else { " and " };
+        let verb = match value {
+            Some(_) if index > 0 && all[index - 1].1.is_some() => "",
+            Some(_) => "sets ",
+            None => "changes ",
+        };
+        let to = value.as_ref().map_or(String::new(), |value| format!(" to {value}"));
+        said += &format!("{and}{verb}{name}{to}");
+    }
+    said
+}
+
+/// Describes where runs with rounded steps end.
+fn rounded(piece: &Piece) -> String {
+    let run = |(side, from): (f64, &str)| {
+        let [above, s] = piece.rule.run_ends(side)?;
+        let [distance, s] = [above.abs(), s].map(|number| round(number, 4));
+        let place = match above {
+            0.0 => "at the target".into(),
+            above if above > 0.0 => format!("{distance} above"),
+            _ => format!("{distance} below"),
+        };
+        Some(format!("from {ROUNDED_START} {from} it stops {place} after {s} s"))
+    };
+    let runs: Vec<String> =
+        [(1.0, "above the target"), (-1.0, "below")].into_iter().filter_map(run).collect();
+    let measured = if runs.is_empty() { String::new() } else { format!("; {}", runs.join(", ")) };
+    format!("its steps are rounded, and have no rate{measured}")
 }
 
 /// Asks whether the length of a frame has another unit, if the rule is too slow in seconds.
@@ -402,10 +452,13 @@ fn report_text(rule: &Rule, written: &str, form: CodeForm) -> String {
         }
         for piece in &pieces {
             said += &format!("\n{}: {}\n", piece.condition, outcome(piece, rule));
-            let motions = piece.rule.motions();
+            let motions = piece.motions();
             match piece.course() {
                 Some(Course::Stops | Course::Stays) => {}
-                Some(Course::Moves(_) | Course::ByTarget) => said += &drive(&piece.rule, &motions),
+                Some(Course::Once | Course::Sets | Course::Rounded) => {}
+                Some(Course::Moves(_) | Course::ByTarget | Course::Brakes(_)) => {
+                    said += &drive(&piece.rule, &motions)
+                }
                 None if motions.iter().any(|seen| is_visible(seen) || is_driven(seen)) => {
                     said += &tables(&piece.rule);
                 }

@@ -17,12 +17,16 @@ use crate::sim::numerics::bisect;
 pub use any_rate::RuleCode;
 pub use bounce::{BouncesSeen, RuleBounce};
 pub use pieces::{Course, Piece};
+pub use rounded::ROUNDED_START;
 pub use scene::rule_scene;
 
 mod any_rate;
 mod bounce;
 mod driven;
+mod label;
+mod once;
 mod pieces;
+mod rounded;
 mod scene;
 
 /// Frame rates at which a rule is shown, besides the author's rate.
@@ -67,6 +71,8 @@ pub struct Rule {
     is_linear: bool,
     /// Whether the value stays wherever it is, as under friction, but not on a spring.
     stays: bool,
+    /// Whether rounding makes each step, so that no map does.
+    is_rounded: bool,
     /// The modes of the switches in a piece of a rule; empty for the whole rule.
     modes: Vec<i64>,
     /// Units of the length of a frame in a second.
@@ -91,10 +97,11 @@ pub struct VisibleMotion {
     pub halves_s: Option<f64>,
     /// Whether the motion grows.
     pub grows: bool,
-    /// The speed at which the rule gains no more, in the units of `v`; `None` if there is none.
+    /// The speed at which the rule gains no more; `None` if there is none. It is one of `x` a second if the rule moves
+    /// `x` by `v` times the frame length, and else is in the units of `v`.
     pub top_speed: Option<f64>,
-    /// The speed that the first frame from rest gains, for a second of such frames, in the units of `v`; `None` if the
-    /// rule does not drive itself.
+    /// The speed that the first frame from rest gains, for a second of such frames; `None` if the rule does not drive
+    /// itself.
     pub accelerates: Option<f64>,
     /// The height and the time in seconds of a jump that starts with [`Rule::jump_speed`].
     pub jump: Option<[f64; 2]>,
@@ -109,6 +116,24 @@ enum Motion {
     Coast { kept: f64 },
     /// A frame maps two numbers by this matrix.
     Swing(Matrix2<f64>),
+}
+
+impl VisibleMotion {
+    /// Returns no motion.
+    fn none(fps: f64) -> Self {
+        Self {
+            fps,
+            hz: None,
+            spring: None,
+            overshoot: None,
+            settles_s: None,
+            halves_s: None,
+            grows: false,
+            top_speed: None,
+            accelerates: None,
+            jump: None,
+        }
+    }
 }
 
 impl Rule {
@@ -127,8 +152,10 @@ impl Rule {
     /// Creates the rule as a map of these carried numbers and of those on which they depend.
     fn with_state(text: Arc<StepText>, fps: f64, state: Vec<usize>) -> Self {
         let (state, is_linear) = (text.with_causes(state), text.is_linear());
+        let is_rounded = rounded::rounding(&text, &state, 1.0 / fps).is_some();
         let (modes, units, within) = (Vec::new(), 1.0, OVER);
-        Self { text, fps, state, is_linear, stays: false, modes, units, within }.settled()
+        Self { text, fps, state, is_linear, stays: false, is_rounded, modes, units, within }
+            .settled()
     }
 
     fn settled(mut self) -> Self {
@@ -220,7 +247,10 @@ impl Rule {
     /// Returns a frame as a map; `None` for more than two numbers, or if not even small motions about a rest at 0 are
     /// linear.
     fn frame(&self, fps: f64) -> Option<Frame> {
-        let frame = Frame::of(&self.text, &self.modes, &self.state, self.step_length(fps))?;
+        let h = self.step_length(fps);
+        let near = (self.modes.is_empty() && !self.is_linear).then(|| self.text.modes_apart(h));
+        let modes = near.as_ref().unwrap_or(&self.modes);
+        let frame = Frame::of(&self.text, modes, &self.state, h).filter(|_| !self.is_rounded)?;
         (self.is_linear || self.is_smooth(&frame, fps)).then_some(frame)
     }
 
@@ -236,7 +266,10 @@ impl Rule {
             let expected = frame.map * at;
             after.zip(&expected).all(|(after, expected)| (after - expected).abs() <= SMOOTH * SMALL)
         };
-        let starts = [[1.0, 0.0], [-1.0, 0.0], [0.0, 1.0], [0.0, -1.0], [1.0, 1.0], [1.0, -1.0]];
+        // Beside 0, which a comparison by `==` may tell from all other numbers.
+        let [one, beside] = [1.0, 1e-3];
+        let starts =
+            [[one, beside], [-one, beside], [beside, one], [beside, -one], [one, one], [one, -one]];
         frame.offset == Vector2::zeros() && starts.into_iter().all(near)
     }
 
@@ -265,18 +298,8 @@ impl Rule {
     /// Returns the visible motion at this many frames per second.
     pub fn motion_at(&self, fps: f64) -> VisibleMotion {
         let [top_speed, accelerates] = self.driven(fps);
-        let nothing = VisibleMotion {
-            fps,
-            hz: None,
-            spring: None,
-            overshoot: None,
-            settles_s: None,
-            halves_s: None,
-            grows: false,
-            top_speed,
-            accelerates,
-            jump: accelerates.filter(|_| top_speed.is_none()).and_then(|_| self.jump(fps)),
-        };
+        let jump = accelerates.filter(|_| top_speed.is_none()).and_then(|_| self.jump(fps));
+        let nothing = VisibleMotion { top_speed, accelerates, jump, ..VisibleMotion::none(fps) };
         let Some(motion) = self.motion(fps) else {
             return VisibleMotion { grows: self.grows_when_watched(fps), ..nothing };
         };

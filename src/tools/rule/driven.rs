@@ -8,10 +8,36 @@ const FRAMES_UP: f64 = 25.0;
 const STEADY: f64 = 1e-13;
 /// A height below this fraction of the top is 0 up to rounding.
 const LANDED: f64 = 1e-9;
+/// Relative rounding error of the way of a frame.
+const ROUNDING: f64 = 1e-9;
 
 impl Rule {
+    /// Returns the speed of `x` a second per `v`; `None` if the rule does not move `x` by `v` times the frame length.
+    fn speed_of_v(&self) -> Option<f64> {
+        let (h, rest) = (self.step_length(self.fps), vec![0.0; self.text.carried().len()]);
+        // At a limit of the velocity, a piece moves the place alike, whatever the velocity before.
+        let moves = |modes: &&[i64]| {
+            let map = self.text.map_on(modes, h, &rest, 0.0);
+            let [place, speed] = [map.columns[1][0], map.columns[1][1]];
+            let is = |per_v: f64| per_v != 0.0 && (place / (per_v * h) - 1.0).abs() < ROUNDING;
+            is(1.0) || is(speed)
+        };
+        [&self.modes[..], &[]].iter().any(moves).then_some(self.units)
+    }
+
+    /// Whether speeds are in the units of `v`, which the unit of the frame length does not relate to seconds.
+    pub fn has_speeds_of_v(&self) -> bool {
+        self.units != 1.0 && !self.text.leaves_unchanged(1) && self.speed_of_v().is_none()
+    }
+
     /// Returns the top speed and the acceleration from rest.
     pub(super) fn driven(&self, fps: f64) -> [Option<f64>; 2] {
+        let per_v = self.speed_of_v().filter(|_| !self.text.leaves_unchanged(1)).unwrap_or(1.0);
+        self.drive_of_v(fps).map(|speed| Some(speed? * per_v))
+    }
+
+    /// Returns the top speed and the acceleration in the units of `v`.
+    fn drive_of_v(&self, fps: f64) -> [Option<f64>; 2] {
         let h = self.step_length(fps);
         let some = |value: f64| Some(value).filter(|value| value.is_finite() && *value != 0.0);
         if self.text.leaves_unchanged(1) {
@@ -28,9 +54,16 @@ impl Rule {
                 return [top, some(gained * fps).filter(|_| kept != 0.0)];
             }
         }
-        if !self.modes.is_empty() || self.text.with_causes(vec![1]).contains(&0) {
+        if self.modes.is_empty() { self.drive_from_rest(fps) } else { [None; 2] }
+    }
+
+    /// Returns the top speed and the acceleration of a run through all pieces, if the place does not decide it.
+    fn drive_from_rest(&self, fps: f64) -> [Option<f64>; 2] {
+        if self.text.with_causes(vec![1]).contains(&0) {
             return [None; 2];
         }
+        let h = self.step_length(fps);
+        let some = |value: f64| Some(value).filter(|value| value.is_finite() && *value != 0.0);
         let mut registers = self.text.registers();
         self.text.set(&mut registers, 1, 0.0);
         let (mut first, mut before) = (None, 0.0);
@@ -51,9 +84,14 @@ impl Rule {
 
     /// Returns the speed with which a jump starts; `None` if the rule has no steady fall.
     pub fn jump_speed(&self) -> Option<f64> {
-        let [None, Some(acceleration)] = self.driven(self.fps) else { return None };
+        let [None, Some(acceleration)] = self.drive_of_v(self.fps) else { return None };
         let moves = self.text.with_causes(vec![0]).iter().all(|index| *index < 2);
         let is_moved = moves && !self.text.leaves_unchanged(0);
+        // A piece of a rule that ends at a top speed drives a body up to it, and lets none fall.
+        let has_top = || self.drive_from_rest(self.fps)[0].is_some();
+        if !self.modes.is_empty() && has_top() {
+            return None;
+        }
         let start = -FRAMES_UP * acceleration / self.fps;
         (is_moved && self.is_in_piece(start)).then_some(start)
     }
@@ -86,5 +124,85 @@ impl Rule {
             height = height.max(place);
         }
         None
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::Course;
+    use super::*;
+
+    #[test]
+    fn a_friction_brakes_and_a_push_does_not() {
+        for (lines, wanted) in [
+            ("v = move_toward(v, 0, 500*dt); x += v*dt", Some(500.0)),
+            ("v -= sign(v)*min(abs(v), 3*dt); x += v*dt", Some(3.0)),
+            ("v = max(v - 5*dt, 0); x += v*dt", Some(5.0)),
+            ("v = move_toward(v, 300, 900*dt); x += v*dt", None),
+            ("v = move_toward(v, target, 900*dt); x += v*dt", None),
+            ("if x > 0 { v -= 9*dt } else { v += 9*dt } x += v*dt", None),
+        ] {
+            let pieces = Rule::read(lines, 60.0).unwrap().pieces();
+            let brakes = pieces.iter().find_map(|piece| match piece.course() {
+                Some(Course::Brakes(gain)) => Some((gain, piece.motions())),
+                _ => None,
+            });
+            let Some((gain, motions)) = brakes else {
+                assert_eq!(wanted, None, "{lines}");
+                continue;
+            };
+            assert!((gain - wanted.unwrap()).abs() < 1e-9, "{lines}: {gain}");
+            let slows = |seen: f64| (seen + gain).abs() < 1e-9;
+            assert!(motions.iter().all(|seen| seen.accelerates.is_some_and(slows)), "{lines}");
+        }
+    }
+
+    #[test]
+    fn a_piece_has_a_jump_only_if_the_rule_falls() {
+        for (lines, jumps) in [
+            ("v += 400*dt; v = clamp(v, -200, 200); x += v*dt", false),
+            ("v = move_toward(v, 300, 400*dt); x += v*dt", false),
+            ("v -= 20*dt; x += v*dt; if x < 0 { x = 0; v = 10 }", true),
+        ] {
+            let pieces = Rule::read(lines, 60.0).unwrap().pieces();
+            let found = pieces.iter().any(|it| it.motions()[0].jump.is_some());
+            assert_eq!(found, jumps, "{lines}");
+        }
+    }
+
+    #[test]
+    fn a_speed_per_millisecond_is_shown_per_second() {
+        let near = |found: Option<f64>, wanted: f64| {
+            found.is_some_and(|found| (found / wanted - 1.0).abs() < 1e-3)
+        };
+        for (lines, units) in [
+            ("v += 2000*dt; v *= 0.92; x += v*dt", 1.0),
+            ("v += 0.002*dt; v *= 0.92; x += v*dt", 1e3),
+            ("x += v*dt; v += 0.002*dt; v *= 0.92", 1e3),
+            ("v += 0.002*dt; v *= 0.92", 1e3),
+        ] {
+            let rule = Rule::read(lines, 60.0).unwrap().in_units(units);
+            let seen = rule.motion_at(60.0);
+            let per_v = if lines.contains('x') { 1.0 } else { 1e-3 };
+            assert!(near(seen.top_speed, 383.333 * per_v), "{lines}: {seen:?}");
+            assert!(near(seen.accelerates, 1840.0 * per_v), "{lines}: {seen:?}");
+        }
+        let fall = Rule::read("v -= 0.00002*dt; x += v*dt", 60.0).unwrap().in_units(1e3);
+        assert!(near(fall.jump_speed(), 0.008333) && near(fall.motion_at(60.0).accelerates, -20.0));
+        let limit = Rule::read("v = min(v + 0.01*dt, 0.3); x += v*dt", 60.0).unwrap().in_units(1e3);
+        let all = limit.pieces();
+        let [_, top] = &all[..] else { panic!("{all:?}") };
+        let Some(Course::Moves(speed)) = top.course() else { panic!("{all:?}") };
+        assert!(near(Some(speed), 300.0) && near(top.motions()[0].top_speed, 300.0), "{speed}");
+    }
+
+    #[test]
+    fn a_spring_that_swings_no_more_rests_at_its_target() {
+        for (target, is_there) in [("target", true), ("target + 1", false)] {
+            let lines = format!("x = smoothDamp(x, {target}, ref v, 0.3, 2, dt)");
+            let pieces = Rule::read(&lines, 60.0).unwrap().pieces();
+            let near = pieces.iter().find(|it| it.condition.starts_with("within")).unwrap();
+            assert_eq!(near.rests_at_target(), is_there, "{lines}");
+        }
     }
 }

@@ -2,27 +2,21 @@
 
 use std::sync::Arc;
 
-use super::{Motion, Rule};
-use crate::sim::law::{Frame, SwitchKind, bracketed};
+use super::rounded::{rounding, turns};
+use super::{Motion, Rule, VisibleMotion};
+use crate::sim::law::{AT_TARGET, Frame, SwitchKind};
 
 /// Number of states that are tried to find the pieces, and the decades over which they spread.
 const TRIED: u32 = 2000;
 const DECADES: [f64; 2] = [-5.0, 4.0];
 /// The last decade if a switch has a piece for each whole number.
 const MANY_DECADE: f64 = 1.5;
-/// A distance at which a rule is at rest.
-const REST: f64 = 1e-12;
+
 /// The maximum number of pieces, and of ways in which the switches of a rule are set.
 const MAX_PIECES: usize = 6;
 const MAX_MODES: usize = 128;
 /// The largest difference of two numbers that are alike, relative to them.
 const ALIKE: f64 = 1e-9;
-/// Spellings of the distance to the target.
-const DISTANCES: [&str; 4] =
-    ["abs(target-x)", "abs(x-target)", "fabs(target-x)", "(target-x).abs()"];
-
-/// Words of functions that turn a number around.
-const TURNS: [&str; 6] = ["mod", "%", "wrap", "repeat", "angle", "rotate"];
 
 /// The part of a rule in which all states move by one map.
 #[derive(Debug)]
@@ -31,7 +25,30 @@ pub struct Piece {
     pub condition: String,
     /// The rule by this map alone.
     pub rule: Rule,
-    modes: Vec<Vec<i64>>,
+    pub(super) modes: Vec<Vec<i64>>,
+    stay: Stay,
+}
+
+/// How long a rule moves by the map of a piece.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Stay {
+    /// As long as the condition holds.
+    Lasts,
+    /// As long, while the velocity loses its size.
+    Brakes,
+    /// For a frame, after which the condition does not hold.
+    Once,
+    /// Where two numbers are equal.
+    Point,
+}
+
+/// The ways in which the switches of a rule are set where it moves by one map.
+pub(super) struct Group {
+    frame: Frame,
+    pub(super) modes: Vec<Vec<i64>>,
+    is_point: bool,
+    /// Whether each frame pushes against the velocity before it.
+    opposes: bool,
 }
 
 /// What a frame of a piece does, if it is no motion by itself.
@@ -45,11 +62,29 @@ pub enum Course {
     Moves(f64),
     /// The target decides its speed.
     ByTarget,
+    /// The speed loses this much in a second, whatever its direction.
+    Brakes(f64),
+    /// It is left after the frame, which sets the numbers of [`Piece::sets`].
+    Once,
+    /// Its frame sets the numbers of [`Piece::sets`].
+    Sets,
+    /// Its steps are rounded, and no map describes them.
+    Rounded,
 }
 
 impl Rule {
-    /// Returns the pieces of a rule that is linear only piece by piece; empty for all other rules.
+    /// Returns the pieces of a rule that is linear only piece by piece; empty for all other rules. A rule with rounded
+    /// steps is one piece.
     pub fn pieces(&self) -> Vec<Piece> {
+        let between = |source: &str| {
+            format!(
+                "between two steps of `{}`",
+                source.split_whitespace().collect::<Vec<_>>().join(" ")
+            )
+        };
+        if let Some(source) = rounding(&self.text, &self.state, 1.0 / self.fps) {
+            return vec![self.piece(between(source), Vec::new(), Stay::Lasts)];
+        }
         let many = self.text.switches().find(|(kind, _)| *kind == SwitchKind::Many);
         let find = |mirrored: &[SwitchKind]| self.find_pieces(mirrored).unwrap_or_default();
         let mut pieces = find(&[SwitchKind::Limit, SwitchKind::Sign]);
@@ -58,11 +93,7 @@ impl Rule {
         }
         match (&mut pieces[..], many) {
             ([one], Some((_, source))) => {
-                let turns = TURNS.iter().any(|word| source.to_ascii_lowercase().contains(word));
-                one.condition = match turns {
-                    true => "in each turn".into(),
-                    false => format!("between two steps of `{source}`"),
-                };
+                one.condition = if turns(source) { "in each turn".into() } else { between(source) };
             }
             ([_], None) => return Vec::new(),
             _ => {}
@@ -70,32 +101,102 @@ impl Rule {
         pieces
     }
 
-    /// Returns the pieces. Two that move alike in opposite directions are one if only switches of these kinds differ.
-    fn find_pieces(&self, mirrored: &[SwitchKind]) -> Option<Vec<Piece>> {
-        let (text, h) = (&self.text, self.step_length(self.fps));
-        let switches: Vec<(SwitchKind, &str)> = text.switches().collect();
-        if self.is_linear || switches.is_empty() || self.state.len() > 2 {
-            return None;
-        }
-        let has_many = switches.iter().any(|(kind, _)| *kind == SwitchKind::Many);
-        let last_decade = if has_many { MANY_DECADE } else { DECADES[1] };
+    /// Returns a piece with these modes.
+    fn piece(&self, condition: String, modes: Vec<Vec<i64>>, stay: Stay) -> Piece {
+        let mut rule = Rule::with_state(Arc::clone(&self.text), self.fps, self.state.clone());
+        (rule.units, rule.within) = (self.units, self.within);
+        rule.is_linear = !rule.is_rounded;
+        let brakes = stay == Stay::Brakes;
+        // Of two opposite motions, the one towards larger numbers.
+        let rises = |modes: &&Vec<i64>| {
+            let frame = Frame::of(&self.text, modes, &self.state, self.step_length(self.fps));
+            frame.is_some_and(|frame| (frame.offset.sum() > 0.0) != brakes)
+        };
+        rule.modes = modes.iter().find(rises).or(modes.first()).cloned().unwrap_or_default();
+        Piece { condition, rule: rule.settled(), modes, stay }
+    }
+
+    /// Returns states that spread over the decades up to the last one, which are the same in each call.
+    pub(super) fn tried(&self, last_decade: f64, count: u32) -> impl Iterator<Item = Vec<f64>> {
         let mut seed = 1_u64;
-        let mut random = || {
+        let mut random = move || {
             seed = seed
                 .wrapping_mul(6_364_136_223_846_793_005)
                 .wrapping_add(1_442_695_040_888_963_407);
             (seed >> 11) as f64 / (1_u64 << 53) as f64
         };
-        let rest: Vec<f64> = text.carried().iter().map(|_| REST).collect();
-        let mut groups: Vec<(Frame, Vec<Vec<i64>>)> = Vec::new();
-        for _ in 0..TRIED {
-            let mut at = vec![0.0; rest.len()];
+        (0..count).map(move |_| {
+            let mut at = vec![0.0; self.text.carried().len()];
             for index in &self.state {
                 let decade = DECADES[0] + (last_decade - DECADES[0]) * random();
                 at[*index] = libm::exp10(decade) * if random() < 0.5 { -1.0 } else { 1.0 };
             }
+            at
+        })
+    }
+
+    /// Returns the last decade of the states that are tried.
+    pub(super) fn last_decade(&self) -> f64 {
+        let has_many = self.text.switches().any(|(kind, _)| kind == SwitchKind::Many);
+        if has_many { MANY_DECADE } else { DECADES[1] }
+    }
+
+    /// Returns the pieces. Two that move alike in opposite directions are one if only switches of these kinds differ.
+    fn find_pieces(&self, mirrored: &[SwitchKind]) -> Option<Vec<Piece>> {
+        let mut groups = self.groups(mirrored)?;
+        groups.extend(self.points(&groups));
+        if groups.len() > MAX_PIECES {
+            return None;
+        }
+        let leaves = self.leaves(&groups);
+        let labels = self.labels(&groups);
+        let mut pieces: Vec<Piece> = Vec::new();
+        for ((group, leaves), label) in groups.iter().zip(leaves).zip(labels) {
+            let (stay, word) = match leaves {
+                _ if group.is_point => (Stay::Point, "at "),
+                true => (Stay::Once, "when "),
+                false if self.brakes(group) => (Stay::Brakes, "while "),
+                false => (Stay::Lasts, "while "),
+            };
+            let label = match label.strip_prefix("while ") {
+                Some(holds) => format!("{word}{holds}"),
+                None => label,
+            };
+            pieces.push(self.piece(label, group.modes.clone(), stay));
+        }
+        let condition = self.text.switches().position(|(kind, _)| kind == SwitchKind::Condition);
+        let truth = |piece: &Piece| condition.map_or(0, |index| -piece.modes[0][index]);
+        // A motion comes before a stop, and a condition before its opposite.
+        let ends = |piece: &Piece| match piece.course() {
+            _ if piece.stay == Stay::Point => 3,
+            Some(Course::Stops | Course::Stays) => 2,
+            Some(Course::Once) => 1,
+            _ => 0,
+        };
+        pieces.sort_by_key(|piece| (ends(piece), truth(piece)));
+        Some(pieces)
+    }
+
+    /// Returns the groups of states that move by one map each.
+    fn groups(&self, mirrored: &[SwitchKind]) -> Option<Vec<Group>> {
+        let (text, h) = (&self.text, self.step_length(self.fps));
+        let kinds: Vec<SwitchKind> = text.switches().map(|(kind, _)| kind).collect();
+        if self.is_linear || kinds.is_empty() || self.state.len() > 2 {
+            return None;
+        }
+        let has_many = kinds.contains(&SwitchKind::Many);
+        let mut groups: Vec<Group> = Vec::new();
+        let mut registers = text.registers();
+        for at in self.tried(self.last_decade(), TRIED) {
+            // A velocity that follows the target is pushed to it from both sides.
+            let opposes = [0.0, 2.0 * at[1]].into_iter().all(|target| {
+                (0..at.len()).for_each(|index| text.set(&mut registers, index, at[index]));
+                text.step(&mut registers, h, target);
+                (text.value(&registers, 1) - at[1]) * at[1] < 0.0
+            });
             let modes = text.modes(h, &at, 0.0);
-            if groups.iter().any(|(_, known)| known.contains(&modes)) {
+            if let Some(known) = groups.iter_mut().find(|group| group.modes.contains(&modes)) {
+                known.opposes &= opposes;
                 continue;
             }
             let frame = Frame::of(text, &modes, &self.state, h)?;
@@ -103,64 +204,70 @@ impl Rule {
                 return None;
             }
             let are_mirrored = |known: &Vec<i64>| {
-                let mut all = switches.iter().zip(known.iter().zip(&modes));
-                all.all(|((kind, _), (a, b))| {
+                let mut all = kinds.iter().zip(known.iter().zip(&modes));
+                all.all(|(kind, (a, b))| {
                     a == b || *kind == SwitchKind::Many || mirrored.contains(kind)
                 })
             };
-            let is_it = |(other, known): &&mut (Frame, Vec<Vec<i64>>)| {
-                let offsets = match known.iter().any(are_mirrored) {
+            let is_it = |group: &&mut Group| {
+                let offsets = match group.modes.iter().any(are_mirrored) {
                     true if has_many => Offsets::Any,
                     true => Offsets::Opposite,
                     false => Offsets::Equal,
                 };
-                is_alike(other, &frame, offsets)
+                is_alike(&group.frame, &frame, offsets)
             };
             match groups.iter_mut().find(is_it) {
-                Some((_, all)) => all.push(modes),
-                None => groups.push((frame, vec![modes])),
+                Some(group) => {
+                    group.modes.push(modes);
+                    group.opposes &= opposes;
+                }
+                None => {
+                    groups.push(Group { frame, modes: vec![modes], is_point: false, opposes });
+                }
             }
-            let all: usize = groups.iter().map(|(_, modes)| modes.len()).sum();
+            let all: usize = groups.iter().map(|group| group.modes.len()).sum();
             if groups.len() > MAX_PIECES || all > MAX_MODES {
                 return None;
             }
         }
-        let at_rest = text.modes(h, &rest, 0.0);
-        let labels: Vec<String> =
-            groups.iter().map(|(_, modes)| self.label(modes, &groups, &at_rest)).collect();
-        let mut pieces: Vec<Piece> = groups
-            .iter()
-            .zip(labels)
-            .map(|((_, modes), condition)| {
-                let modes = modes.clone();
-                let mut rule = Rule::with_state(Arc::clone(text), self.fps, self.state.clone());
-                (rule.units, rule.within, rule.is_linear) = (self.units, self.within, true);
-                // Of two opposite motions, the one towards larger numbers.
-                let rises = |modes: &&Vec<i64>| {
-                    let frame = Frame::of(text, modes, &self.state, h);
-                    frame.is_some_and(|frame| frame.offset.sum() > 0.0)
-                };
-                rule.modes.clone_from(modes.iter().find(rises).unwrap_or(&modes[0]));
-                Piece { condition, rule: rule.settled(), modes }
-            })
-            .collect();
-        let truth = |piece: &Piece| {
-            let mut all = piece.modes[0].iter().zip(&switches);
-            all.find(|(_, (kind, _))| *kind == SwitchKind::Condition).map_or(0, |(mode, _)| -*mode)
-        };
-        // A motion comes before a stop.
-        let ends = |piece: &Piece| matches!(piece.course(), Some(Course::Stops | Course::Stays));
-        pieces.sort_by_key(|piece| (ends(piece), truth(piece)));
-        let others: Vec<String> = pieces.iter().rev().map(|it| it.condition.clone()).collect();
-        for (piece, other) in
-            pieces.iter_mut().zip(&others).filter(|(it, _)| it.condition.is_empty())
-        {
-            piece.condition = match other.strip_prefix("within ") {
-                Some(limits) if others.len() == 2 => format!("beyond {limits}"),
-                _ => "elsewhere".into(),
-            };
+        Some(groups)
+    }
+
+    /// Returns the groups of states that none of the tried ones is in, for two of their numbers are equal.
+    fn points(&self, groups: &[Group]) -> Vec<Group> {
+        let mut points: Vec<Group> = Vec::new();
+        let equalities = (0..self.text.switches().count()).filter(|it| self.text.is_equality(*it));
+        let equalities: Vec<usize> = equalities.collect();
+        for known in groups.iter().flat_map(|group| &group.modes) {
+            for index in equalities.iter().filter(|index| known[**index] != 0) {
+                let mut modes = known.clone();
+                modes[*index] = 0;
+                let h = self.step_length(self.fps);
+                let Some(frame) = Frame::of(&self.text, &modes, &self.state, h) else { continue };
+                let all = groups.iter().chain(&points);
+                if all.flat_map(|group| &group.modes).any(|other| *other == modes) {
+                    continue;
+                }
+                let is_it = |point: &&mut Group| is_alike(&point.frame, &frame, Offsets::Equal);
+                match points.iter_mut().find(is_it) {
+                    Some(point) => point.modes.push(modes),
+                    None => {
+                        let modes = vec![modes];
+                        points.push(Group { frame, modes, is_point: true, opposes: false });
+                    }
+                }
+            }
         }
-        Some(pieces)
+        points
+    }
+
+    /// Whether a constant push takes from the velocity, whatever its direction.
+    fn brakes(&self, group: &Group) -> bool {
+        let Some(row) = self.state.iter().position(|index| *index == 1) else { return false };
+        let Frame { map, by_target, offset } = &group.frame;
+        let kept = (0..2).all(|column| map[(row, column)] == f64::from(u8::from(row == column)));
+        group.opposes && kept && by_target[row] == 0.0 && offset[row] != 0.0
     }
 
     /// Whether a frame with these modes is an affine map up to rounding.
@@ -176,57 +283,23 @@ impl Rule {
             (found.values[*row] - expected).abs() <= ALIKE * size.max(f64::MIN_POSITIVE)
         })
     }
-
-    /// Returns the condition that the modes of a piece have in common.
-    fn label(
-        &self,
-        modes: &[Vec<i64>],
-        groups: &[(Frame, Vec<Vec<i64>>)],
-        at_rest: &[i64],
-    ) -> String {
-        let mut parts: Vec<String> = Vec::new();
-        let switches: Vec<(SwitchKind, &str)> = self.text.switches().collect();
-        let free = self.text.free_modes();
-        for (index, (kind, source)) in switches.iter().enumerate() {
-            // The two limits of a `clamp` are one switch, of mode 1 if both leave its number.
-            let twins: Vec<usize> =
-                (0..switches.len()).filter(|other| switches[*other] == switches[index]).collect();
-            let is_clamp = *kind == SwitchKind::Limit && twins.len() == 2;
-            let mode_of = |modes: &Vec<i64>| match is_clamp {
-                true => i64::from(twins.iter().all(|index| modes[*index] == 1)),
-                false => modes[index],
-            };
-            let mode = mode_of(&modes[0]);
-            let is_common = modes.iter().all(|modes| mode_of(modes) == mode);
-            let mut all = groups.iter().flat_map(|(_, modes)| modes);
-            if !is_common || all.all(|modes| mode_of(modes) == mode) {
-                continue;
-            }
-            let source = source.split_whitespace().collect::<Vec<_>>().join(" ");
-            let within = if is_clamp { 1 } else { free[index].unwrap_or(at_rest[index]) };
-            let part = match kind {
-                SwitchKind::Condition => condition(&source, mode == 1),
-                SwitchKind::Limit if mode == within => format!("within the limits of `{source}`"),
-                SwitchKind::Limit if is_clamp => format!("beyond the limits of `{source}`"),
-                SwitchKind::Limit => format!("at a limit of `{source}`"),
-                SwitchKind::Sign if mode == 1 => format!("`{source}` of a number above 0"),
-                SwitchKind::Sign => format!("`{source}` of a number below 0"),
-                SwitchKind::Many => continue,
-            };
-            let follows = parts.iter().any(|part| part.starts_with("while "));
-            let part = part.strip_prefix("while ").filter(|_| follows).unwrap_or(&part).to_owned();
-            if !parts.contains(&part) {
-                parts.push(part);
-            }
-        }
-        parts.join(" and ")
-    }
 }
 
 impl Piece {
     /// Returns what a frame does at the author's rate, unless it is a motion by itself.
     pub fn course(&self) -> Option<Course> {
         let rule = &self.rule;
+        match self.stay {
+            _ if rule.is_rounded => return Some(Course::Rounded),
+            Stay::Once => return Some(Course::Once),
+            Stay::Point if self.sets().is_empty() => return Some(Course::Stays),
+            Stay::Point => return Some(Course::Sets),
+            Stay::Brakes => {
+                let [_, gain] = rule.driven(rule.fps);
+                return gain.map(|gain| Course::Brakes(gain.abs()));
+            }
+            Stay::Lasts => {}
+        }
         let frame = rule.frame(rule.fps)?;
         let is_0 = |number: f64| number.abs() <= ALIKE;
         let motion = rule.motion(rule.fps)?;
@@ -255,6 +328,23 @@ impl Piece {
             return None;
         }
         moved(frame.offset.x, rule.fps).or(Some(Course::Stays))
+    }
+
+    /// Returns the visible motion at each frame rate, which has no numbers where a frame is no motion.
+    pub fn motions(&self) -> Vec<VisibleMotion> {
+        let motions = self.rule.motions().into_iter();
+        match self.stay {
+            Stay::Lasts | Stay::Brakes => motions.collect(),
+            Stay::Once | Stay::Point => motions.map(|seen| VisibleMotion::none(seen.fps)).collect(),
+        }
+    }
+
+    /// Whether the motion ends at the target.
+    pub fn rests_at_target(&self) -> bool {
+        let rests = self.rule.frame(self.rule.fps).and_then(|frame| frame.rests());
+        rests.is_some_and(|[by_target, offset]| {
+            (by_target.x - 1.0).abs() <= AT_TARGET && offset.x.abs() <= AT_TARGET
+        })
     }
 
     /// Whether nothing draws the body to a place, so that it stops by its speed alone.
@@ -297,34 +387,4 @@ fn is_alike(a: &Frame, b: &Frame, offsets: Offsets) -> bool {
             Offsets::Opposite => near(a.abs(), b.abs()),
             Offsets::Any => true,
         })
-}
-
-/// Writes a comparison of the lines that is true or false.
-fn condition(source: &str, is_true: bool) -> String {
-    const OPPOSITES: [(&str, &str); 6] =
-        [("<=", ">"), (">=", "<"), ("==", "!="), ("!=", "=="), ("<", ">="), (">", "<=")];
-    if let Some(inside) = bracketed(source) {
-        return condition(inside.trim(), is_true);
-    }
-    let (mut depth, mut found) = (0, None);
-    for (at, sign) in source.char_indices() {
-        depth += i32::from(sign == '(') - i32::from(sign == ')');
-        let operator = OPPOSITES.iter().find(|(operator, _)| source[at..].starts_with(operator));
-        if depth == 0 && found.is_none() {
-            found = operator.map(|(operator, opposite)| (at, *operator, *opposite));
-        }
-    }
-    let Some((at, operator, opposite)) = found else {
-        return format!("{} {source}", if is_true { "while" } else { "while not" });
-    };
-    let sign = if is_true { operator } else { opposite };
-    let [left, right] = [&source[..at], &source[at + operator.len()..]].map(str::trim);
-    let is_distance = |side: &str| DISTANCES.contains(&&*side.replace(' ', ""));
-    match (is_distance(left), is_distance(right), sign.as_bytes()[0]) {
-        (true, false, b'<') => format!("within {right} of the target"),
-        (true, false, b'>') => format!("beyond {right} of the target"),
-        (false, true, b'<') => format!("beyond {left} of the target"),
-        (false, true, b'>') => format!("within {left} of the target"),
-        _ => format!("while {left} {sign} {right}"),
-    }
 }

@@ -237,3 +237,52 @@ fn a_limited_drive_in_pieces_is_shown_from_rest_and_piece_by_piece() {
         assert!(is_near(&row["top_speed"], 200.0) && is_near(&row["accelerates"], 900.0), "{row}");
     }
 }
+
+#[test]
+fn a_piece_is_described_by_what_its_frames_do() {
+    for (lines, wanted, unwanted) in [
+        (
+            "x += v*dt; if x > 10 { x = 10; v = -v*0.5 }",
+            "when x > 10: once, it sets x to 10 and v to −0.5 times v\n",
+            "1 % AFTER",
+        ),
+        ("if x < 0 { x = 0; v = 10 }", "when x < 0: once, it sets x to 0 and v to 10\n", "stops"),
+        (
+            "x += round((target - x)/8)",
+            "its steps are rounded, and have no rate; from 100 above the target it stops 3 above after",
+            "TOP SPEED",
+        ),
+        (
+            "if x == target { v = 0 } else { x += (target - x)*0.1 }",
+            "\nat x == target: it sets v to 0\n",
+            "rest at 0",
+        ),
+        (
+            "v = move_toward(v, 0, 500*dt); x += v*dt",
+            "it brakes by 500.0 a second\n  FPS  TOP SPEED  ACCELERATES /s\n  30   -          −500.0\n",
+            "JUMPS",
+        ),
+        (
+            "x = Mathf.SmoothDamp(x, target, ref v, 0.3f, 2f, Time.deltaTime)",
+            ": it comes to rest at the target: a spring of 1.060 Hz, damping ratio 1.000\n",
+            "it moves on",
+        ),
+    ] {
+        let said = String::from_utf8(rule(&[lines]).stdout).unwrap();
+        assert!(said.contains(wanted) && !said.contains(unwanted), "{lines}: {said}");
+    }
+    let wall = &json(&["x += v*dt; if x > 10 { x = 10; v = -v*0.5 }"])["pieces"][1];
+    assert_eq!(wall["course"], "once, it sets x to 10 and v to −0.5 times v");
+    assert_eq!(wall["seen"][0]["settles_s"], Value::Null);
+}
+
+#[test]
+fn a_speed_by_milliseconds_is_per_second_or_has_its_unit() {
+    let lines = "v += 0.002*dt; v *= 0.92";
+    let said = |lines: &str| String::from_utf8(rule(&[lines, "--dt", "ms"]).stdout).unwrap();
+    assert!(said(lines).contains("\nspeeds are in the units of v\n"), "{}", said(lines));
+    let moving = said(&format!("{lines}; x += v*dt"));
+    assert!(!said("x += 0.3*dt").contains("units of v"));
+    let row = "\n  60   383.3      1840\n";
+    assert!(moving.contains(row) && !moving.contains("units of v"), "{moving}");
+}

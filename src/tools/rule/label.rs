@@ -1,0 +1,210 @@
+//! The conditions of the pieces of a rule in words.
+
+use super::Rule;
+use super::pieces::Group;
+use crate::sim::law::{SwitchKind, bracketed};
+
+/// Spellings of the distance to the target.
+const DISTANCES: [&str; 4] =
+    ["abs(target-x)", "abs(x-target)", "fabs(target-x)", "(target-x).abs()"];
+/// A distance at which a rule is at rest.
+const REST: f64 = 1e-12;
+
+/// A part of a condition, and whether it holds in each way in which the switches are set.
+struct Part {
+    words: String,
+    holds: Vec<bool>,
+}
+
+impl Rule {
+    /// Returns the condition of each group, which holds there and in no other group.
+    pub(super) fn labels(&self, groups: &[Group]) -> Vec<String> {
+        let modes: Vec<Vec<i64>> = groups.iter().flat_map(|group| group.modes.clone()).collect();
+        let mut begin = 0;
+        let mut found: Vec<[String; 2]> = Vec::new();
+        for group in groups {
+            let end = begin + group.modes.len();
+            let is_own = |index: usize| (begin..end).contains(&index);
+            found.push(self.label(&modes, &is_own));
+            begin = end;
+        }
+        let without = found.iter().filter(|[label, _]| label.is_empty()).count();
+        let rest = match &found[..] {
+            [[one, _], [other, _]] => format!("{one}{other}"),
+            _ => String::new(),
+        };
+        let rest = match rest.strip_prefix("within ").filter(|rest| !rest.contains(" and ")) {
+            Some(limits) => format!("beyond {limits}"),
+            None => "elsewhere".into(),
+        };
+        let named = |[label, other]: [String; 2]| match label.is_empty() {
+            true if without == 1 => rest.clone(),
+            true => other,
+            false => label,
+        };
+        found.into_iter().map(named).collect()
+    }
+
+    /// Returns the condition of the group of these modes, and one to take if several groups have none.
+    fn label(&self, modes: &[Vec<i64>], is_own: &dyn Fn(usize) -> bool) -> [String; 2] {
+        let joined = self.joined_parts(modes, is_own);
+        let is_exact = |parts: &[&Part]| {
+            let holds = |index: usize| parts.iter().all(|part| part.holds[index]);
+            !parts.is_empty() && (0..modes.len()).all(|index| is_own(index) || !holds(index))
+        };
+        let simple = self.parts(modes, is_own);
+        let [simple, joined]: [Vec<&Part>; 2] = [simple.iter().collect(), joined.iter().collect()];
+        let both = [simple.clone(), joined.clone()].concat();
+        let of = |parts: &[&Part]| {
+            let mut label = String::new();
+            for part in parts {
+                let and = if label.is_empty() { "" } else { " and " };
+                let follows = label.starts_with("while ") || label.contains(" and while ");
+                let words = part.words.strip_prefix("while ").filter(|_| follows);
+                label += &format!("{and}{}", words.unwrap_or(&part.words));
+            }
+            label
+        };
+        let is_not = joined.iter().any(|part| part.words.starts_with("while not "));
+        if is_exact(&simple) {
+            return [of(&simple), String::new()];
+        }
+        if is_exact(&joined) {
+            // The opposite of a long condition is elsewhere, if all other pieces have their own.
+            let label = of(&joined);
+            return if is_not { [String::new(), label] } else { [label, String::new()] };
+        }
+        let label = if is_exact(&both) { of(&both) } else { String::new() };
+        [label, "in other cases".into()]
+    }
+
+    /// Returns the conditions of several comparisons by which the own modes differ from the others.
+    fn joined_parts(&self, modes: &[Vec<i64>], is_own: &dyn Fn(usize) -> bool) -> Vec<Part> {
+        let mut parts = Vec::new();
+        for (source, truths) in self.text.joined(self.step_length(self.fps), modes) {
+            let source = source.split_whitespace().collect::<Vec<_>>().join(" ");
+            let source = bracketed(&source).map_or(&*source, str::trim);
+            let words = |is_true| match is_true {
+                true => format!("while {source}"),
+                false => format!("while not ({source})"),
+            };
+            parts.extend(common(&truths, is_own, |is_true| Some(words(is_true))));
+        }
+        parts
+    }
+
+    /// Returns the conditions of one switch each by which the own modes differ from the others.
+    fn parts(&self, modes: &[Vec<i64>], is_own: &dyn Fn(usize) -> bool) -> Vec<Part> {
+        let mut parts: Vec<Part> = Vec::new();
+        let (text, h) = (&self.text, self.step_length(self.fps));
+        let switches: Vec<(SwitchKind, &str)> = text.switches().collect();
+        let free = text.free_modes();
+        let at_rest = text.modes(h, &vec![REST; text.carried().len()], 0.0);
+        for (index, (kind, source)) in switches.iter().enumerate() {
+            // The two limits of a `clamp` are one switch, of mode 1 if both leave its number.
+            let twins: Vec<usize> =
+                (0..switches.len()).filter(|other| switches[*other] == switches[index]).collect();
+            let is_clamp = *kind == SwitchKind::Limit && twins.len() == 2;
+            let mode_of = |modes: &Vec<i64>| match text.truth(index, modes[index]) {
+                Some(is_true) => i64::from(is_true),
+                None if is_clamp => i64::from(twins.iter().all(|index| modes[*index] == 1)),
+                None => modes[index],
+            };
+            let modes: Vec<i64> = modes.iter().map(mode_of).collect();
+            let source = source.split_whitespace().collect::<Vec<_>>().join(" ");
+            let within = if is_clamp { 1 } else { free[index].unwrap_or(at_rest[index]) };
+            let words = |mode| {
+                Some(match kind {
+                    SwitchKind::Condition => condition(&source, mode == 1),
+                    SwitchKind::Limit if mode == within => {
+                        format!("within the limits of `{source}`")
+                    }
+                    SwitchKind::Limit if is_clamp => format!("beyond the limits of `{source}`"),
+                    SwitchKind::Limit => format!("at a limit of `{source}`"),
+                    SwitchKind::Sign if mode == 1 => format!("`{source}` of a number above 0"),
+                    SwitchKind::Sign => format!("`{source}` of a number below 0"),
+                    SwitchKind::Many => return None,
+                })
+            };
+            let part = common(&modes, is_own, words);
+            parts.extend(part.filter(|part| parts.iter().all(|it| it.words != part.words)));
+        }
+        parts
+    }
+}
+
+/// Returns the part of the value that all own modes have, unless all others have it, too.
+fn common<T: Copy + PartialEq>(
+    values: &[T],
+    is_own: &dyn Fn(usize) -> bool,
+    words: impl Fn(T) -> Option<String>,
+) -> Option<Part> {
+    let own = values[(0..values.len()).find(|index| is_own(*index))?];
+    let holds: Vec<bool> = values.iter().map(|value| *value == own).collect();
+    let is_common = (0..values.len()).all(|index| holds[index] || !is_own(index));
+    let differs = is_common && holds.contains(&false);
+    Some(Part { words: words(own).filter(|_| differs)?, holds })
+}
+
+/// Writes a comparison of the lines that is true or false.
+fn condition(source: &str, is_true: bool) -> String {
+    const OPPOSITES: [(&str, &str); 6] =
+        [("<=", ">"), (">=", "<"), ("==", "!="), ("!=", "=="), ("<", ">="), (">", "<=")];
+    if let Some(inside) = bracketed(source) {
+        return condition(inside.trim(), is_true);
+    }
+    let (mut depth, mut found) = (0, None);
+    for (at, sign) in source.char_indices() {
+        depth += i32::from(sign == '(') - i32::from(sign == ')');
+        let operator = OPPOSITES.iter().find(|(operator, _)| source[at..].starts_with(operator));
+        if depth == 0 && found.is_none() {
+            found = operator.map(|(operator, opposite)| (at, *operator, *opposite));
+        }
+    }
+    let Some((at, operator, opposite)) = found else {
+        return format!("{} {source}", if is_true { "while" } else { "while not" });
+    };
+    let sign = if is_true { operator } else { opposite };
+    let [left, right] = [&source[..at], &source[at + operator.len()..]].map(str::trim);
+    let is_distance = |side: &str| DISTANCES.contains(&&*side.replace(' ', ""));
+    match (is_distance(left), is_distance(right), sign.as_bytes()[0]) {
+        (true, false, b'<') => format!("within {right} of the target"),
+        (true, false, b'>') => format!("beyond {right} of the target"),
+        (false, true, b'<') => format!("beyond {left} of the target"),
+        (false, true, b'>') => format!("within {left} of the target"),
+        _ => format!("while {left} {sign} {right}"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_condition_holds_in_its_piece_and_in_no_other() {
+        let rest = "{ v *= 0.9 } else { v *= 0.5 } x += v*dt";
+        let labels = |lines: &str| -> Vec<String> {
+            let pieces = Rule::read(lines, 60.0).unwrap().pieces().into_iter();
+            pieces.map(|piece| piece.condition).collect()
+        };
+        for (condition, found) in [
+            ("x > 10 or x < 0 and v > 0", ["while x > 10 or x < 0 and v > 0", "elsewhere"]),
+            ("(x > 10 || v > 5) && x < 90", ["while (x > 10 || v > 5) && x < 90", "elsewhere"]),
+            ("not (x > 10 and v > 0)", ["while x > 10 and v > 0", "elsewhere"]),
+            ("x > 1 and x < 9", ["while x > 1 and x < 9", "elsewhere"]),
+            ("x > 10 or v > 5", ["while x > 10 or v > 5", "while x <= 10 and v <= 5"]),
+        ] {
+            let mut all = labels(&format!("if {condition} {rest}"));
+            all.sort_by_key(|label| label == "elsewhere");
+            let mut found = found.map(str::to_owned).to_vec();
+            all.sort();
+            found.sort();
+            assert_eq!(all, found, "{condition}");
+        }
+        // No label for two of three pieces, by single comparisons or by all.
+        let lines = "if x > 10 or v > 5 and x < 3 { v *= 0.9 } if v > 7 or x < -10 and v > 2 { v *= 0.5 }\nx += v*dt";
+        let all = labels(lines);
+        let bare = all.iter().filter(|label| *label == "elsewhere").count();
+        assert!(all.len() == 4 && bare < 2, "{all:?}");
+    }
+}
