@@ -33,6 +33,7 @@ mod sweep;
 mod sweep_plots;
 mod tick_rates;
 mod trace;
+mod unknown_logs;
 mod verify;
 mod verify_reports;
 
