@@ -20,7 +20,8 @@ use crate::sim::number::{round, significant};
 use crate::tools::Rule;
 use crate::tools::port::{PortOutcome, UI_SPRINGS, Wish, followers};
 use crate::tools::rule::{
-    BouncesSeen, Course, Piece, ROUNDED_START, RuleBounce, UNITS, VisibleMotion, rule_scene,
+    BouncesSeen, Course, Piece, ROUNDED_START, ROUNDED_TARGET, RuleBounce, UNITS, VisibleMotion,
+    rule_scene,
 };
 use crate::tools::source_code::{CodeForm, Language};
 
@@ -402,6 +403,10 @@ fn frame(piece: &Piece) -> String {
 
 /// Describes where runs with rounded steps end.
 fn rounded(piece: &Piece) -> String {
+    let target = match piece.rule.ends_by_target() {
+        true => format!("a target of {ROUNDED_TARGET}"),
+        false => "the target".to_owned(),
+    };
     let run = |(side, from): (f64, &str)| {
         let [above, s] = piece.rule.run_ends(side)?;
         let [distance, s] = [above.abs(), s].map(|number| round(number, 4));
@@ -413,7 +418,7 @@ fn rounded(piece: &Piece) -> String {
         Some(format!("from {ROUNDED_START} {from} it stops {place} after {s} s"))
     };
     let runs: Vec<String> =
-        [(1.0, "above the target"), (-1.0, "below")].into_iter().filter_map(run).collect();
+        [(1.0, &*format!("above {target}")), (-1.0, "below")].into_iter().filter_map(run).collect();
     let measured = if runs.is_empty() { String::new() } else { format!("; {}", runs.join(", ")) };
     format!("its steps are rounded, and have no rate{measured}")
 }
@@ -465,6 +470,11 @@ fn report_text(rule: &Rule, written: &str, form: CodeForm) -> String {
                 None => {}
             }
         }
+    }
+    let beside = rule.beside();
+    if !beside.is_empty() {
+        let names = beside.join(", ");
+        said += &format!("\nleft out, as nothing above depends on it: {names}\n");
     }
     if let Some([kept, other]) = rule.left_out() {
         said += &format!("\nof the component {kept} alone; the lines of {other} are left out\n");

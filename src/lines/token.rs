@@ -45,7 +45,9 @@ const FOREIGN: [(&str, &str); 11] = [
 pub(super) const FLOOR_DIVISION: &str = "/\\";
 
 /// Signs of other notations that step lines have too, each with our symbol.
-const STEP_SIGNS: [(&str, &str); 15] = [
+const STEP_SIGNS: [(&str, &str); 17] = [
+    ("===", "=="),
+    ("!==", "!="),
     ("**", "^"),
     ("&&", "and"),
     ("||", "or"),
@@ -74,7 +76,9 @@ pub(super) fn tokens(text: &str, is_step: bool) -> Parsed<Vec<(Token, Range<usiz
             at += 1;
             continue;
         }
-        let mut step_signs = STEP_SIGNS.iter().filter(|_| is_step && !rest.starts_with("!="));
+        let mut step_signs = STEP_SIGNS
+            .iter()
+            .filter(|(sign, _)| is_step && (sign.len() == 3 || !rest.starts_with("!=")));
         let after_value =
             matches!(tokens.last(), Some((Token::Name | Token::Number(_) | Token::Symbol(")"), _)));
         let is_method = is_step

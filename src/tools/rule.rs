@@ -17,7 +17,7 @@ use crate::sim::numerics::bisect;
 pub use any_rate::RuleCode;
 pub use bounce::{BouncesSeen, RuleBounce};
 pub use pieces::{Course, Piece};
-pub use rounded::ROUNDED_START;
+pub use rounded::{ROUNDED_START, ROUNDED_TARGET};
 pub use scene::rule_scene;
 
 mod any_rate;
@@ -232,6 +232,24 @@ impl Rule {
     /// Whether the rule depends on the length of a frame.
     pub fn takes_step(&self) -> bool {
         self.text.takes_step()
+    }
+
+    /// Returns the names of the numbers that the lines move too, on which those of the rule do not depend.
+    pub fn beside(&self) -> Vec<&str> {
+        let (text, h) = (&self.text, self.step_length(self.fps));
+        let mut registers = text.registers();
+        let mut after = |index: usize, value: f64| {
+            (0..text.carried().len()).for_each(|other| text.set(&mut registers, other, 1.0));
+            text.set(&mut registers, index, value);
+            text.step(&mut registers, h, 0.0);
+            text.value(&registers, index)
+        };
+        let carried = text.carried().iter().enumerate();
+        let moved = carried.filter(|(index, _)| !self.state.contains(index));
+        let moved = moved.filter(|(index, _)| {
+            !text.leaves_unchanged(*index) && after(*index, 1.0) != after(*index, 2.0)
+        });
+        moved.map(|(_, carried)| &*carried.name).collect()
     }
 
     /// Returns the component of vectors that the rule moves, and the other one whose lines are left out.

@@ -9,10 +9,14 @@ use crate::op::{Level, OPERATOR_WORDS};
 use crate::token::Token;
 
 /// Functions of more than one number, each with the lines that do the same to one.
-const REMEDIES: [(&str, &str); 3] = [
+const REMEDIES: [(&str, &str); 4] = [
     ("slerp", "write the angle as a number: `rotation = lerp_angle(rotation, target, part)`"),
     (
         "rotatetowards",
+        "write the angle as a number: `rotation = rotate_toward(rotation, target, by)`, in radians",
+    ),
+    (
+        "movetowardsangle",
         "write the angle as a number: `rotation = rotate_toward(rotation, target, by)`, in radians",
     ),
     ("smoothdampangle", "write the angle as a number that does not wrap: `SmoothDamp`"),

@@ -322,7 +322,11 @@ impl<'t> Reader<'t> {
             Statement::Return { word, value } => {
                 if !self.is_function {
                     let what = "`return` cannot stand in a step";
-                    return fault(word, what, "assign `x` and `v` in its place, or write `stay`");
+                    let remedy = match self.is_method() {
+                        true => "assign `x` and `v` in its place, or write `stay`",
+                        false => "put the lines after it into the block of the opposite condition",
+                    };
+                    return fault(word, what, remedy);
                 }
                 let value = self.expression(value, false)?;
                 self.note_reads(&value);

@@ -8,6 +8,8 @@ const FRAMES_UP: f64 = 25.0;
 const STEADY: f64 = 1e-13;
 /// A height below this fraction of the top is 0 up to rounding.
 const LANDED: f64 = 1e-9;
+/// Places at which a piece may have a speed.
+const PLACES: [f64; 5] = [0.0, 1.0, -1.0, 1e3, -1e3];
 /// Relative rounding error of the way of a frame.
 const ROUNDING: f64 = 1e-9;
 
@@ -27,7 +29,8 @@ impl Rule {
 
     /// Whether speeds are in the units of `v`, which the unit of the frame length does not relate to seconds.
     pub fn has_speeds_of_v(&self) -> bool {
-        self.units != 1.0 && !self.text.leaves_unchanged(1) && self.speed_of_v().is_none()
+        let moves_x = self.units != 1.0 || !self.text.leaves_unchanged(0);
+        moves_x && !self.text.leaves_unchanged(1) && self.speed_of_v().is_none()
     }
 
     /// Returns the top speed and the acceleration from rest.
@@ -51,10 +54,26 @@ impl Rule {
             if causes.all(|(index, column)| index == 1 || column[1] == 0.0) {
                 let (kept, gained) = (map.columns[1][1], map.values[1]);
                 let top = (kept.abs() < 1.0).then_some(gained / (1.0 - kept)).and_then(some);
+                let top = top.filter(|top| self.moves_so_at(*top, h));
                 return [top, some(gained * fps).filter(|_| kept != 0.0)];
             }
         }
         if self.modes.is_empty() { self.drive_from_rest(fps) } else { [None; 2] }
+    }
+
+    /// Whether the piece whose map this rule is has states of this speed.
+    fn moves_so_at(&self, speed: f64, h: f64) -> bool {
+        let rest = vec![0.0; self.text.carried().len()];
+        let map = |modes: &[i64]| {
+            let map = self.text.map_on(modes, h, &rest, 0.0);
+            (map.columns, map.values)
+        };
+        let is_own = |place: &f64| {
+            let mut at = rest.clone();
+            (at[0], at[1]) = (*place, speed);
+            map(&self.text.modes(h, &at, 0.0)) == map(&self.modes)
+        };
+        self.modes.is_empty() || PLACES.iter().any(is_own)
     }
 
     /// Returns the top speed and the acceleration of a run through all pieces, if the place does not decide it.
@@ -92,7 +111,8 @@ impl Rule {
         if !self.modes.is_empty() && has_top() {
             return None;
         }
-        let start = -FRAMES_UP * acceleration / self.fps;
+        let given = Some(self.text.carried()[1].start).filter(|start| start * acceleration < 0.0);
+        let start = given.unwrap_or(-FRAMES_UP * acceleration / self.fps);
         (is_moved && self.is_in_piece(start)).then_some(start)
     }
 

@@ -148,8 +148,16 @@ fn common<T: Copy + PartialEq>(
 
 /// Writes a comparison of the lines that is true or false.
 fn condition(source: &str, is_true: bool) -> String {
-    const OPPOSITES: [(&str, &str); 6] =
-        [("<=", ">"), (">=", "<"), ("==", "!="), ("!=", "=="), ("<", ">="), (">", "<=")];
+    const OPPOSITES: [(&str, &str); 8] = [
+        ("<=", ">"),
+        (">=", "<"),
+        ("===", "!=="),
+        ("!==", "==="),
+        ("==", "!="),
+        ("!=", "=="),
+        ("<", ">="),
+        (">", "<="),
+    ];
     if let Some(inside) = bracketed(source) {
         return condition(inside.trim(), is_true);
     }

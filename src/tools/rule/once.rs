@@ -1,12 +1,12 @@
 //! Pieces of a rule that it leaves after a frame, and what such a frame sets.
 
-use super::pieces::Group;
+use super::pieces::{DECADES, Group};
 use super::{Piece, Rule};
 use crate::sim::number::round;
 use crate::sim::numerics::bisect;
 
 /// Number of runs that come to the pieces of a rule, and of their frames.
-const RUNS: u32 = 200;
+const RUNS: u32 = 800;
 const FRAMES: u32 = 16;
 /// Number of halvings of the way to the border of a piece.
 const HALVINGS: u32 = 40;
@@ -14,18 +14,26 @@ const HALVINGS: u32 = 40;
 const DIGITS: usize = 4;
 const ROUNDING: f64 = 1e-9;
 
-/// The frames of runs that begin in a group, or come to it, and those of them after which it still holds.
+/// A piece lasts if more than one in this many runs stays in it, for one that comes to it, or for a while.
+const FEW: u32 = 5;
+/// Maximum number of frames in a row after which a run has not stayed for a while.
+const MOST: u32 = 2;
+
+/// The runs that begin in a group, and those of them that stay for a frame or for a while. The frames that come to it
+/// from another group, and those of them that come again after one frame elsewhere, or after which it still holds.
 #[derive(Clone, Default)]
 struct Frames {
     begun: u32,
     begun_stay: u32,
+    last: u32,
+    again: u32,
     come: u32,
     come_stay: u32,
 }
 
 impl Rule {
-    /// Returns for each group whether the rule leaves it after one frame, from all states that meet its condition, or
-    /// from all to which the rule comes from another group.
+    /// Returns for each group whether the rule leaves it after one frame: from nearly all states that meet its
+    /// condition, or from nearly all to which the rule comes from another group that lasts.
     pub(super) fn leaves(&self, groups: &[Group]) -> Vec<bool> {
         let (text, h) = (&self.text, self.step_length(self.fps));
         let mut registers = text.registers();
@@ -34,10 +42,14 @@ impl Rule {
             let modes = text.modes(h, at, 0.0);
             groups.iter().position(|group| group.modes.contains(&modes))
         };
-        let tried: Vec<Vec<f64>> = self.tried(self.last_decade(), RUNS).collect();
+        // Near rest a ball lies on the floor from which it bounced.
+        let most = self.last_decade();
+        let least = libm::exp10((DECADES[0] + most) / 2.0);
+        let is_far = |at: &Vec<f64>| self.state.iter().all(|index| at[*index].abs() >= least);
+        let tried: Vec<Vec<f64>> = self.tried(most, RUNS).filter(is_far).collect();
         let borders = tried.windows(2).filter_map(|ends| border(ends, group_at));
         for mut at in tried.iter().cloned().chain(borders) {
-            let (mut before, mut now) = (None, group_at(&at));
+            let ([mut last, mut before], mut now, mut is_first) = ([None; 2], group_at(&at), true);
             for frame in 0..FRAMES {
                 for (index, value) in at.iter().enumerate() {
                     text.set(&mut registers, index, *value);
@@ -52,14 +64,20 @@ impl Rule {
                     let comes = u32::from(before.is_some() && before != now);
                     frames.begun += begins;
                     frames.begun_stay += begins * stays;
+                    is_first &= next == now;
+                    frames.last += u32::from(is_first && frame == MOST);
                     frames.come += comes;
+                    frames.again += comes * u32::from(last == now);
                     frames.come_stay += comes * stays;
                 }
-                (before, now) = (now, next);
+                (last, before, now) = (before, now, next);
             }
         }
         let leaves = |frames: &Frames| {
-            frames.come_stay == 0 && (frames.come > 0 || frames.begun > 0 && frames.begun_stay == 0)
+            let is_few = |part: u32, all: u32| part * FEW <= all;
+            (is_few(frames.last, frames.begun) || is_few(frames.again, frames.come))
+                && is_few(frames.come_stay, frames.come)
+                && (frames.come > 0 || frames.begun > 0 && frames.begun_stay == 0)
         };
         seen.iter().map(leaves).collect()
     }
@@ -155,6 +173,11 @@ mod tests {
                 "when x < 0",
                 &[("x", "0"), ("v", "10")],
             ),
+            (
+                "v += 0.5; x += v; if x > 400 { x = 400; v *= -0.8 }",
+                "when x > 400",
+                &[("x", "400"), ("v", "\u{2212}0.8 times v \u{2212} 0.4")],
+            ),
             ("x += 3*dt; if x > 20 { x = x - 20 }", "when x > 20", &[("x", "x \u{2212} 19.95")]),
             (
                 "x += v; if x > 100 { x = 200 - x; v = -v }",
@@ -187,6 +210,7 @@ mod tests {
             "if target > x { x += (target - x)*0.9 } else { x += (target - x)*0.05 }",
             "x += v*dt; if x > 10 { x = 10 }",
             "v *= 0.9; if v < 0.3 { v = 0.3 } x += v*dt",
+            "if v > 0 { v -= 0.2 } else { v += 0.2 } x += v",
         ] {
             let all = pieces(lines);
             let is_once = all.iter().any(|piece| piece.course() == Some(Course::Once));

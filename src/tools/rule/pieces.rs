@@ -8,7 +8,7 @@ use crate::sim::law::{AT_TARGET, Frame, SwitchKind};
 
 /// Number of states that are tried to find the pieces, and the decades over which they spread.
 const TRIED: u32 = 2000;
-const DECADES: [f64; 2] = [-5.0, 4.0];
+pub(super) const DECADES: [f64; 2] = [-5.0, 4.0];
 /// The last decade if a switch has a piece for each whole number.
 const MANY_DECADE: f64 = 1.5;
 

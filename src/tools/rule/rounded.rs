@@ -9,6 +9,9 @@ const TURNS: [&str; 6] = ["mod", "%", "wrap", "repeat", "angle", "rotate"];
 /// Distance from the target at which a run with rounded steps starts.
 pub const ROUNDED_START: f64 = 100.0;
 
+/// The target of runs with rounded steps.
+pub const ROUNDED_TARGET: f64 = 1000.0;
+
 /// Numbers at which a rule is tried for turns.
 const TRIED: [f64; 6] = [0.37, -1.9, 7.3, -23.1, 61.7, -3.3];
 /// The rounding error of a frame from there, relative to the turn.
@@ -60,23 +63,36 @@ pub(super) fn turns(source: &str) -> bool {
 
 impl Rule {
     /// Returns where a run ends that starts at rest [`ROUNDED_START`] above the target (`side` 1) or below it (-1), as
-    /// its distance above the target, and when, in seconds. `None` if the run does not end, or the rule has no target.
+    /// its distance above the target, and when, in seconds. The target is [`ROUNDED_TARGET`]. `None` if the run does
+    /// not end, or the rule has no target.
     pub fn run_ends(&self, side: f64) -> Option<[f64; 2]> {
+        self.run_to(ROUNDED_TARGET, side)
+    }
+
+    /// Whether the target decides how far from it such runs end.
+    pub fn ends_by_target(&self) -> bool {
+        [1.0, -1.0].iter().any(|side| {
+            let first = self.run_ends(*side);
+            [0.0, -ROUNDED_TARGET].iter().any(|target| self.run_to(*target, *side) != first)
+        })
+    }
+
+    fn run_to(&self, target: f64, side: f64) -> Option<[f64; 2]> {
         let text = &self.text;
         if !text.takes_target() {
             return None;
         }
         let mut registers = text.registers();
-        text.set(&mut registers, self.state[0], side * ROUNDED_START);
+        text.set(&mut registers, self.state[0], target + side * ROUNDED_START);
         let frames = (WATCHED_S * self.fps).min(MAX_WATCHED) as u32;
         let mut before = Vec::new();
         for frame in 0..frames {
             let at: Vec<f64> =
                 self.state.iter().map(|index| text.value(&registers, *index)).collect();
             if before == at {
-                return Some([at[0], f64::from(frame - 1) / self.fps]);
+                return Some([at[0] - target, f64::from(frame - 1) / self.fps]);
             }
-            text.step(&mut registers, self.step_length(self.fps), 0.0);
+            text.step(&mut registers, self.step_length(self.fps), target);
             before = at;
         }
         None
@@ -95,7 +111,9 @@ mod tests {
             ("x += trunc((target - x)/8)", [7.0, -7.0]),
             ("x += int((target - x)/8)", [7.0, -7.0]),
             ("x += round((target - x)/8)", [3.0, -3.0]),
-            ("x = round(x + (target - x) * 0.1)", [5.0, -5.0]),
+            ("x = round(x + (target - x) * 0.1)", [5.0, -4.0]),
+            ("x = int(x + (target - x) * 0.1)", [0.0, -9.0]),
+            ("x = (x + (target - x) * 0.1) | 0", [0.0, -9.0]),
             ("x += (target - x) * 0.1; x = floor(x)", [0.0, -9.0]),
             ("let step = round((target - x)/8); x += clamp(step, -2, 2)", [3.0, -3.0]),
             ("x += floor(abs(target - x)/8) * sign(target - x)", [7.0, -7.0]),
@@ -106,6 +124,10 @@ mod tests {
             assert!(piece.rule.is_rounded, "{lines}");
             let found = [1.0, -1.0].map(|side| piece.rule.run_ends(side).map(|[above, _]| above));
             assert_eq!(found, ends.map(Some), "{lines}");
+            // Halves go away from 0, and a fraction is dropped towards it.
+            let is_absolute =
+                ["x = round", "x = int", "x = (x"].iter().any(|it| lines.starts_with(it));
+            assert_eq!(piece.rule.ends_by_target(), is_absolute, "{lines}");
             for seen in [rule.motions(), piece.motions()].concat() {
                 let rates = [seen.hz, seen.halves_s, seen.settles_s, seen.top_speed];
                 assert_eq!(rates, [None; 4], "{lines}: {seen:?}");

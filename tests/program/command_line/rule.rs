@@ -131,6 +131,24 @@ fn a_chase_rings_and_grows_below_the_reported_rates() {
 }
 
 #[test]
+fn what_is_left_out_and_what_the_lines_start_with_is_in_the_answer() {
+    for (lines, part) in [
+        (
+            "vx *= 0.9; vy *= 0.8; x += vx; y += vy",
+            "left out, as nothing above depends on it: vy, y\n",
+        ),
+        ("float v = 8f; v -= 0.4f; x += v;", "a jump starts with v = 8.000\n"),
+        ("if (x !== target) { x += (target - x) * 0.1 }", "while x !== target: halves in 0.1096 s"),
+        ("v += 0.5; v = min(v, 10); x += v", "speeds are in the units of v\n"),
+    ] {
+        let text = String::from_utf8(rule(&[lines]).stdout).unwrap();
+        assert!(text.contains(part), "{lines}: {text}");
+    }
+    let text = rule(&["let d = target - x; x += d * 0.1"]);
+    assert!(!String::from_utf8(text.stdout).unwrap().contains("left out"));
+}
+
+#[test]
 fn lines_come_from_an_argument_a_file_or_standard_input() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("friction.step");
