@@ -190,10 +190,16 @@ impl PortArgs {
     }
 
     /// Prints an answer and, with `--as`, the code of the motion, which is that of these lines at this frame rate.
-    fn print_with_code(&self, mut text: String, lines: &str, fps: f64) -> Result<(), Error> {
+    fn print_with_code(
+        &self,
+        mut text: String,
+        lines: impl FnOnce() -> String,
+        fps: f64,
+    ) -> Result<(), Error> {
         if let (Some(form), TableFormat::Text) = (self.form, self.format) {
-            let code = Rule::read(lines, fps).map_err(|fault| fault.what);
-            let code = code.and_then(|rule| rule.code(lines, form)).map_err(Error::mistake)?;
+            let lines = lines();
+            let code = Rule::read(&lines, fps).map_err(|fault| fault.what);
+            let code = code.and_then(|rule| rule.code(&lines, form)).map_err(Error::mistake)?;
             text += &format!("\n{}", code.text);
         }
         self.format.print(&text)
@@ -273,15 +279,12 @@ pub(super) fn run(args: &PortArgs) -> Result<(), Error> {
         Some(WishSource::Approach(approach, fps)) => {
             let ports = followers(approach, fps);
             let text = report::followers(approach, &ports, args.format);
-            return args.print_with_code(text, &chase(approach), args.tick_hz());
+            return args.print_with_code(text, || chase(approach), args.tick_hz());
         }
         Some(WishSource::Friction(friction)) => {
             let text = report::friction(&friction, args.format);
-            return args.print_with_code(
-                text,
-                &format!("v *= exp(-{:?} * dt)", friction.rate()),
-                friction.fps,
-            );
+            let lines = || format!("v *= exp(-{:?} * dt)", friction.rate());
+            return args.print_with_code(text, lines, friction.fps);
         }
         Some(WishSource::Engine(settings)) if args.drive => settings.as_given(),
         Some(WishSource::Engine(settings)) => settings.as_visible().map_err(|fault| {
@@ -303,7 +306,7 @@ pub(super) fn run(args: &PortArgs) -> Result<(), Error> {
                 let approach = Approach { half_life_s };
                 let ports = followers(approach, None);
                 let text = report::followers(approach, &ports, args.format);
-                return args.print_with_code(text, &chase(approach), tick_hz);
+                return args.print_with_code(text, || chase(approach), tick_hz);
             }
             let seen = found.and_then(|found| found.effective).filter(|seen| seen.omega > 0.0);
             let none = || {
@@ -358,5 +361,5 @@ pub(super) fn run(args: &PortArgs) -> Result<(), Error> {
         report::springs((&wish, tick_hz, read.as_ref()), &all, &dialects, args.format)
     };
     let own = UI_SPRINGS.iter().find(|it| it.id == "per-frame").expect("it is in the table");
-    args.print_with_code(text, &own.port(&wish, tick_hz).code, tick_hz)
+    args.print_with_code(text, || own.port(&wish, tick_hz).code, tick_hz)
 }

@@ -385,7 +385,7 @@ fn outcome(piece: &Piece, whole: &Rule) -> String {
     }
 }
 
-/// Describes what a frame of a piece sets.
+/// Describes the numbers that a frame of a piece sets.
 fn frame(piece: &Piece) -> String {
     let (mut said, all) = (String::from("it "), piece.sets());
     for (index, (name, value)) in all.iter().enumerate() {

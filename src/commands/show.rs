@@ -15,9 +15,7 @@ use super::terminal::print_status;
 use crate::loops::PolicyCard;
 use crate::sim::integrators::{METHODS, Method};
 use crate::sim::{IMPACTS, Impact};
-use crate::tools::source_code::{
-    CodeForm, Precision, impact_code, loop_code, source_code, step_lines,
-};
+use crate::tools::source_code::{CodeForm, Precision, impact_code, loop_code, source_code};
 
 const ABOUT: &str = "\
 A method of your own is a file of the lines of its step: see `regatta help step`. The comment has its
@@ -137,17 +135,12 @@ fn code(args: &ShowArgs) -> Result<String, Error> {
             return impact_code(impact, args.form.unwrap_or_default()).map_err(Error::mistake);
         }
     };
-    let code = match args.form.unwrap_or_default() {
-        CodeForm::Step if args.float => {
-            return Err(Error::mistake("--float is for code; the lines of a step are for both"));
-        }
-        CodeForm::Step => step_lines(method),
-        CodeForm::Function(language) => {
-            let precision = if args.float { Precision::Single } else { Precision::Double };
-            source_code(method, language, precision)
-        }
-    };
-    let code = code.map_err(Error::mistake)?;
+    let form = args.form.unwrap_or_default();
+    if args.float && form == CodeForm::Step {
+        return Err(Error::mistake("--float is for code; the lines of a step are for both"));
+    }
+    let precision = if args.float { Precision::Single } else { Precision::Double };
+    let code = source_code(method, form, precision).map_err(Error::mistake)?;
     if let Some(alias) = alias {
         print_status(&format!("note: {alias} is another name of {}, which is shown", method.id));
     }

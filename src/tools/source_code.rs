@@ -80,16 +80,18 @@ impl fmt::Display for NoSourceCode {
     }
 }
 
-/// Returns a method's function in a language and a precision, below a comment made from its card.
+/// Returns a method's function in a language and a precision, below a comment made from its card; or its
+/// [lines](step_lines), which have no precision of their own.
 ///
 /// # Errors
 /// If the method is [custom](Method::custom), or cannot be written as such a function, or the language has no such
 /// precision.
 pub fn source_code(
     method: &Method,
-    language: Language,
+    form: impl Into<CodeForm>,
     precision: Precision,
 ) -> Result<String, NoSourceCode> {
+    let CodeForm::Function(language) = form.into() else { return step_lines(method) };
     let text = printable(method, language, precision)?;
     let header = header::lines(method, &text, language);
     Ok(printer::print(method.id, &text, language, precision, &header))

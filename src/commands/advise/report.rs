@@ -11,7 +11,7 @@ use crate::measure::{
 };
 use crate::scene::{LaneSpec, Scene};
 use crate::tools::source_code;
-use crate::tools::source_code::{CodeForm, Precision, step_lines};
+use crate::tools::source_code::{CodeForm, Precision};
 
 /// Maximum number of rows that are shown without `--all`.
 const MOST_ROWS: usize = 8;
@@ -120,12 +120,7 @@ fn recommendations(scene: &Scene, adviser: &Adviser, rows: &[Row], wanted: usize
 fn code(scene: &Scene, adviser: &Adviser, rows: &[Row], form: CodeForm) -> Option<String> {
     let (row, Recommendation { with: met, .. }) =
         recommended_row(rows, criterion_to_take(&advised(rows))?)?;
-    let method = row.advised.spec.method;
-    let code = match form {
-        CodeForm::Step => step_lines(method),
-        CodeForm::Function(language) => source_code(method, language, Precision::Double),
-    };
-    let code = code.ok()?;
+    let code = source_code(row.advised.spec.method, form, Precision::Double).ok()?;
     let steps = met.substeps;
     let hz = adviser.tick_hz().scaled(steps, 1);
     let times = if steps == 1 { "once".into() } else { format!("{steps} times") };

@@ -8,21 +8,19 @@ use crate::function::Function;
 use crate::op::{Level, OPERATOR_WORDS};
 use crate::token::Token;
 
+/// The remedy for a turn by an angle at most.
+const ROTATE: &str =
+    "write the angle as a number: `rotation = rotate_toward(rotation, target, by)`, in radians";
+
 /// Functions of more than one number, each with the lines that do the same to one.
 const REMEDIES: [(&str, &str); 4] = [
     ("slerp", "write the angle as a number: `rotation = lerp_angle(rotation, target, part)`"),
-    (
-        "rotatetowards",
-        "write the angle as a number: `rotation = rotate_toward(rotation, target, by)`, in radians",
-    ),
-    (
-        "movetowardsangle",
-        "write the angle as a number: `rotation = rotate_toward(rotation, target, by)`, in radians",
-    ),
+    ("rotatetowards", ROTATE),
+    ("movetowardsangle", ROTATE),
     ("smoothdampangle", "write the angle as a number that does not wrap: `SmoothDamp`"),
 ];
 
-/// Returns how lines of one number do what this function does.
+/// Returns the remedy for this function: how lines of one number do the same.
 pub(super) fn remedy(function: &str) -> Option<&'static str> {
     let found = REMEDIES.iter().find(|(name, _)| name.eq_ignore_ascii_case(function));
     found.map(|(_, remedy)| *remedy)

@@ -1,4 +1,4 @@
-//! Pieces of a rule that it leaves after a frame, and what such a frame sets.
+//! Pieces of a rule that it leaves after a frame, and the numbers that such a frame sets.
 
 use super::pieces::{DECADES, Group};
 use super::{Piece, Rule};
@@ -43,10 +43,10 @@ impl Rule {
             groups.iter().position(|group| group.modes.contains(&modes))
         };
         // Near rest a ball lies on the floor from which it bounced.
-        let most = self.last_decade();
-        let least = libm::exp10((DECADES[0] + most) / 2.0);
+        let last_decade = self.last_decade();
+        let least = libm::exp10((DECADES[0] + last_decade) / 2.0);
         let is_far = |at: &Vec<f64>| self.state.iter().all(|index| at[*index].abs() >= least);
-        let tried: Vec<Vec<f64>> = self.tried(most, RUNS).filter(is_far).collect();
+        let tried: Vec<Vec<f64>> = self.tried(last_decade, RUNS).filter(is_far).collect();
         let borders = tried.windows(2).filter_map(|ends| border(ends, group_at));
         for mut at in tried.iter().cloned().chain(borders) {
             let ([mut last, mut before], mut now, mut is_first) = ([None; 2], group_at(&at), true);

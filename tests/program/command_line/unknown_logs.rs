@@ -1,4 +1,4 @@
-//! `identify` on logs that no method explains: what it says all the same.
+//! `identify` on logs that no method explains.
 
 use std::fs;
 

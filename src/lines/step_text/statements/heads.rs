@@ -57,7 +57,7 @@ struct Head {
 }
 
 impl Reader<'_> {
-    /// Reads what stands around the lines and changes no number, or the head of a function.
+    /// Reads the words around the lines that change no number, or the head of a function.
     pub(super) fn attribute_or_head(&mut self) -> Parsed<Option<Statement>> {
         while let Some(length) = self.attribute() {
             self.at += length;
