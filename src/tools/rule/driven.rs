@@ -1,13 +1,18 @@
 //! The top speed, the acceleration and the jump of a rule that drives its velocity without looking at the place.
 
-use super::{MAX_WATCHED, Rule};
+use super::{HALVINGS, MAX_WATCHED, Rule};
+use crate::sim::numerics::bisect;
 
 /// Number of frames of the author in which gravity stops the speed of a jump.
 const FRAMES_UP: f64 = 25.0;
 /// A speed that changes by less than this fraction in a frame is the top speed.
 const STEADY: f64 = 1e-13;
+/// Number of frames over which a speed that goes up and down has its mean.
+const MEAN_OF: u32 = 4096;
 /// A height below this fraction of the top is 0 up to rounding.
 const LANDED: f64 = 1e-9;
+/// Number of states that are tried to find the speeds that branches set.
+const SET_TRIED: u32 = 200;
 /// Places at which a piece may have a speed.
 const PLACES: [f64; 5] = [0.0, 1.0, -1.0, 1e3, -1e3];
 /// Relative rounding error of the way of a frame.
@@ -78,27 +83,57 @@ impl Rule {
 
     /// Returns the top speed and the acceleration of a run through all pieces, if the place does not decide it.
     fn drive_from_rest(&self, fps: f64) -> [Option<f64>; 2] {
-        if self.text.with_causes(vec![1]).contains(&0) {
+        let (h, causes) = (self.step_length(fps), self.text.with_causes(vec![1]));
+        let first = self.speeds(h, 0.0).next().filter(|first| first.is_finite() && *first != 0.0);
+        let Some(first) = first.filter(|_| !causes.contains(&0)) else { return [None; 2] };
+        let (last, is_steady) = self.last_speed(h, 0.0);
+        if !last.is_finite() {
             return [None; 2];
         }
-        let h = self.step_length(fps);
-        let some = |value: f64| Some(value).filter(|value| value.is_finite() && *value != 0.0);
+        let limit = || if causes == [1] { self.speed_limit(h, first) } else { None };
+        let top = if is_steady { Some(last) } else { limit() };
+        [top, Some(first * fps).filter(|gain| gain.is_finite())]
+    }
+
+    /// Returns the speeds after each frame of a run that starts at rest, or with this speed.
+    fn speeds(&self, h: f64, from: f64) -> impl Iterator<Item = f64> {
         let mut registers = self.text.registers();
-        self.text.set(&mut registers, 1, 0.0);
-        let (mut first, mut before) = (None, 0.0);
-        for _ in 0..MAX_WATCHED as u32 {
+        self.text.set(&mut registers, 1, from);
+        std::iter::repeat_with(move || {
             self.text.step(&mut registers, h, 0.0);
-            let speed = self.text.value(&registers, 1);
-            let first = *first.get_or_insert(speed);
-            if first == 0.0 || !speed.is_finite() {
-                return [None; 2];
-            }
-            if (speed - before).abs() <= STEADY * speed.abs() {
-                return [Some(speed), some(first * fps)];
-            }
-            before = speed;
-        }
-        [None, first.and_then(|first| some(first * fps))]
+            self.text.value(&registers, 1)
+        })
+    }
+
+    /// Returns the speed at which a run stays, or its last one with `false`.
+    fn last_speed(&self, h: f64, from: f64) -> (f64, bool) {
+        let mut last = from;
+        let is_steady = self.speeds(h, from).take(MAX_WATCHED as usize).any(|speed| {
+            let before = std::mem::replace(&mut last, speed);
+            (speed - before).abs() <= STEADY * speed.abs()
+        });
+        (last, is_steady)
+    }
+
+    /// Returns the speed at which frames gain no more, or the mean one if they gain and lose in turn. `None` if each
+    /// frame gains. `first` is the gain of the first frame.
+    fn speed_limit(&self, h: f64, first: f64) -> Option<f64> {
+        let gains = |decade: f64| {
+            let speed = first * libm::exp10(decade);
+            self.speeds(h, speed).next().is_some_and(|after| (after - speed) * first > 0.0)
+        };
+        let mut decades = (-30..=90).map(|tenth| f64::from(tenth) / 10.0);
+        let beyond = decades.find(|decade| !gains(*decade))?;
+        let [_, limit] = bisect([beyond - 0.1, beyond], HALVINGS, gains);
+        let from = first * libm::exp10(limit);
+        let (last, is_steady) = self.last_speed(h, from);
+        let (frames, count) = (MAX_WATCHED as usize, MEAN_OF as usize);
+        // A run from rest tells where it goes up and down, unless it takes too long to come there.
+        let comes = self.speeds(h, 0.0).take(frames).any(|speed| speed / from >= 1.0);
+        let from = if comes { 0.0 } else { from };
+        let sum: f64 = self.speeds(h, from).skip(frames).take(count).sum();
+        let top = if is_steady { last } else { sum / f64::from(MEAN_OF) };
+        Some(top).filter(|top| top.is_finite())
     }
 
     /// Returns the speed with which a jump starts; `None` if the rule has no steady fall.
@@ -111,9 +146,27 @@ impl Rule {
         if !self.modes.is_empty() && has_top() {
             return None;
         }
-        let given = Some(self.text.carried()[1].start).filter(|start| start * acceleration < 0.0);
+        let opposes = |start: &f64| start * acceleration < 0.0;
+        let given = Some(self.text.carried()[1].start).filter(opposes);
+        let given = given.or_else(|| self.set_speeds().into_iter().find(opposes));
         let start = given.unwrap_or(-FRAMES_UP * acceleration / self.fps);
         (is_moved && self.is_in_piece(start)).then_some(start)
+    }
+
+    /// Returns the speeds that branches set to numbers.
+    fn set_speeds(&self) -> Vec<f64> {
+        let (text, h) = (&self.text, self.step_length(self.fps));
+        let mut tried: Vec<Vec<i64>> = Vec::new();
+        for at in self.whole().tried(self.last_decade(), SET_TRIED) {
+            let modes = text.modes(h, &at, 0.0);
+            if !tried.contains(&modes) {
+                tried.push(modes);
+            }
+        }
+        let rest = vec![0.0; text.carried().len()];
+        let maps = tried.iter().map(|modes| text.map_on(modes, h, &rest, 0.0));
+        let set = maps.filter(|map| map.columns.iter().all(|column| column[1] == 0.0));
+        set.map(|map| map.values[1]).collect()
     }
 
     /// Whether a jump with this speed rises and falls in the piece whose map this rule is.
@@ -224,5 +277,33 @@ mod tests {
             let near = pieces.iter().find(|it| it.condition.starts_with("within")).unwrap();
             assert_eq!(near.rests_at_target(), is_there, "{lines}");
         }
+    }
+
+    #[test]
+    fn a_limit_is_the_top_speed_at_every_rate_and_a_set_speed_starts_the_jump() {
+        let drop = "v += 60*dt; if v > 20 { v = v*0.95 } x += v*dt";
+        for (lines, fps, top) in [
+            ("v -= 1*dt; x += v*dt; if v < -500 { v = -500 }", 30.0, Some(-500.0)),
+            ("v -= 1*dt; x += v*dt; if v < -500 { v = -500 }", 240.0, Some(-500.0)),
+            ("v += 1*dt; if v > 8 { v = 8 } x += v*dt", 60.0, Some(8.0)),
+            (drop, 30.0, Some(38.0)),
+            (drop, 60.0, Some(19.0)),
+            ("v += if(v > 0, -30, 30)*dt; x += v*dt", 60.0, Some(0.25)),
+            ("if v < 9 { v += 1*dt } else { v += 2*dt } x += v*dt", 60.0, None),
+        ] {
+            let seen = Rule::read(lines, 60.0).unwrap().motion_at(fps);
+            let is_near = seen.top_speed.zip(top).map(|(a, b)| (a / b - 1.0).abs() < 1e-9);
+            assert_eq!(is_near, top.map(|_| true), "{lines} at {fps}: {seen:?}");
+            assert!(seen.top_speed.is_none() || seen.jump.is_none(), "{lines}: {seen:?}");
+        }
+        // Between the highest speed that a frame reaches and the lowest to which the limit drops it.
+        let mean = Rule::read(drop, 60.0).unwrap().motion_at(240.0).top_speed.unwrap();
+        assert!((19.0..20.25).contains(&mean), "{mean}");
+        let lines = "v += 900*dt; x += v*dt; if x > 0 { x = 0; v = -400 }";
+        let pieces = Rule::read(lines, 60.0).unwrap().pieces();
+        assert_eq!(pieces[0].rule.jump_speed(), Some(-400.0));
+        // The sum over the frames of a symplectic flight that begins at the floor.
+        let [height, _] = pieces[0].motions()[2].jump.unwrap();
+        assert!((height - 85.583).abs() < 1e-2, "{height}");
     }
 }
