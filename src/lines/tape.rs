@@ -266,6 +266,11 @@ impl Tape {
         })
     }
 
+    /// Returns the slot of each switch.
+    pub(super) fn switch_slots(&self) -> impl Iterator<Item = u16> {
+        self.switches.iter().map(|(_, instruction)| instruction.to)
+    }
+
     /// Returns the slots of the first two operands of each switch.
     pub(super) fn switch_operands(&self) -> impl Iterator<Item = [u16; 2]> {
         self.switches.iter().map(|(_, Instruction { operands: [a, b, _], .. })| [*a, *b])

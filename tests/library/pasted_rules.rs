@@ -301,10 +301,7 @@ fn each_piece_of_a_drive_has_its_own_acceleration_and_speed() {
         ),
         (
             "v -= sign(x)*9*dt; x += v*dt",
-            [
-                ("`sign(x)` of a number above 0", Some(-9.0), None, None),
-                ("`sign(x)` of a number below 0", Some(9.0), None, None),
-            ],
+            [("while x > 0", Some(-9.0), None, None), ("while x < 0", Some(9.0), None, None)],
         ),
         (
             "v += 900*dt; v = clamp(v, -200, 200); x += v*dt",

@@ -75,6 +75,25 @@ impl StepText {
         self.tape.switch_operands().map(mode).collect()
     }
 
+    /// Returns for each switch the earlier switches that decide what it compares, as a list of indices.
+    pub fn switches_before(&self) -> Vec<Vec<usize>> {
+        let slots: Vec<u16> = self.tape.switch_slots().collect();
+        let mut deciding: Vec<Vec<usize>> = vec![Vec::new(); self.tape.slots];
+        let mut found = vec![Vec::new(); slots.len()];
+        for (_, operands, to, _) in self.tape.operations() {
+            let mut all: Vec<usize> =
+                operands.iter().flat_map(|slot| deciding[usize::from(*slot)].clone()).collect();
+            all.sort_unstable();
+            all.dedup();
+            if let Some(index) = slots.iter().position(|slot| *slot == to) {
+                found[index].clone_from(&all);
+                all.push(index);
+            }
+            deciding[usize::from(to)] = all;
+        }
+        found
+    }
+
     /// Returns the source of each switch of the lines, with its kind.
     pub fn switches(&self) -> impl Iterator<Item = (SwitchKind, &str)> {
         self.tape

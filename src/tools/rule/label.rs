@@ -14,6 +14,8 @@ const REST: f64 = 1e-12;
 struct Part {
     words: String,
     holds: Vec<bool>,
+    /// The switch of a single comparison.
+    switch: Option<usize>,
 }
 
 impl Rule {
@@ -55,10 +57,20 @@ impl Rule {
         let simple = self.parts(modes, is_own);
         let [simple, joined]: [Vec<&Part>; 2] = [simple.iter().collect(), joined.iter().collect()];
         let both = [simple.clone(), joined.clone()].concat();
+        let before = self.text.switches_before();
         let of = |parts: &[&Part]| {
             let mut label = String::new();
-            for part in parts {
-                let and = if label.is_empty() { "" } else { " and " };
+            for (index, part) in parts.iter().enumerate() {
+                // A number that a branch has changed is compared after it.
+                let is_after = part.switch.is_some_and(|switch| {
+                    let mut earlier = parts[..index].iter().filter_map(|part| part.switch);
+                    earlier.any(|earlier| before[switch].contains(&earlier))
+                });
+                let and = match (label.is_empty(), is_after) {
+                    (true, _) => "",
+                    (false, false) => " and ",
+                    (false, true) => ", then ",
+                };
                 let follows = label.starts_with("while ") || label.contains(" and while ");
                 let words = part.words.strip_prefix("while ").filter(|_| follows);
                 label += &format!("{and}{}", words.unwrap_or(&part.words));
@@ -98,36 +110,60 @@ impl Rule {
         let mut parts: Vec<Part> = Vec::new();
         let (text, h) = (&self.text, self.step_length(self.fps));
         let switches: Vec<(SwitchKind, &str)> = text.switches().collect();
-        let free = text.free_modes();
+        let (free, before) = (text.free_modes(), text.switches_before());
         let at_rest = text.modes(h, &vec![REST; text.carried().len()], 0.0);
         for (index, (kind, source)) in switches.iter().enumerate() {
             // The two limits of a `clamp` are one switch, of mode 1 if both leave its number.
             let twins: Vec<usize> =
                 (0..switches.len()).filter(|other| switches[*other] == switches[index]).collect();
             let is_clamp = *kind == SwitchKind::Limit && twins.len() == 2;
-            let mode_of = |modes: &Vec<i64>| match text.truth(index, modes[index]) {
+            let mode_of = |modes: &Vec<i64>, has_sides: bool| match text.truth(index, modes[index])
+            {
                 Some(is_true) => i64::from(is_true),
-                None if is_clamp => i64::from(twins.iter().all(|index| modes[*index] == 1)),
+                None if is_clamp => match twins.iter().rposition(|index| modes[*index] != 1) {
+                    Some(side) if has_sides => 2 * side as i64,
+                    beyond => i64::from(beyond.is_none()),
+                },
                 None => modes[index],
             };
-            let modes: Vec<i64> = modes.iter().map(mode_of).collect();
             let source = source.split_whitespace().collect::<Vec<_>>().join(" ");
             let within = if is_clamp { 1 } else { free[index].unwrap_or(at_rest[index]) };
-            let words = |mode| {
+            let words = |mode, has_sides| {
                 Some(match kind {
                     SwitchKind::Condition => condition(&source, mode == 1),
                     SwitchKind::Limit if mode == within => {
                         format!("within the limits of `{source}`")
                     }
+                    SwitchKind::Limit if is_clamp && has_sides => {
+                        let side = if mode == 0 { "lower" } else { "upper" };
+                        format!("at the {side} limit of `{source}`")
+                    }
                     SwitchKind::Limit if is_clamp => format!("beyond the limits of `{source}`"),
                     SwitchKind::Limit => format!("at a limit of `{source}`"),
-                    SwitchKind::Sign if mode == 1 => format!("`{source}` of a number above 0"),
-                    SwitchKind::Sign => format!("`{source}` of a number below 0"),
+                    SwitchKind::Sign => {
+                        let operator = if mode == 1 { ">" } else { "<" };
+                        match argument(&source) {
+                            Some(argument) => format!("while {argument} {operator} 0"),
+                            None => format!("while the number of `{source}` {operator} 0"),
+                        }
+                    }
                     SwitchKind::Many => return None,
                 })
             };
-            let part = common(&modes, is_own, words);
-            parts.extend(part.filter(|part| parts.iter().all(|it| it.words != part.words)));
+            let part = [true, false].into_iter().find_map(|has_sides| {
+                let modes: Vec<i64> = modes.iter().map(|modes| mode_of(modes, has_sides)).collect();
+                common(&modes, is_own, |mode| words(mode, has_sides))
+            });
+            let Some(part) = part.map(|part| Part { switch: Some(index), ..part }) else {
+                continue;
+            };
+            let is_known = |it: &Part| {
+                let is_later = it.switch.is_some_and(|earlier| before[index].contains(&earlier));
+                it.words == part.words && (is_clamp || !is_later)
+            };
+            if !parts.iter().any(is_known) {
+                parts.push(part);
+            }
         }
         parts
     }
@@ -143,7 +179,14 @@ fn common<T: Copy + PartialEq>(
     let holds: Vec<bool> = values.iter().map(|value| *value == own).collect();
     let is_common = (0..values.len()).all(|index| holds[index] || !is_own(index));
     let differs = is_common && holds.contains(&false);
-    Some(Part { words: words(own).filter(|_| differs)?, holds })
+    Some(Part { words: words(own).filter(|_| differs)?, holds, switch: None })
+}
+
+/// Returns the argument of a call with one.
+fn argument(call: &str) -> Option<&str> {
+    let (_, argument) = call.split_once('(')?;
+    let argument = argument.strip_suffix(')')?;
+    (!argument.contains(['(', ','])).then_some(argument.trim())
 }
 
 /// Writes a comparison of the lines that is true or false.
@@ -214,5 +257,42 @@ mod tests {
         let all = labels(lines);
         let bare = all.iter().filter(|label| *label == "elsewhere").count();
         assert!(all.len() == 4 && bare < 2, "{all:?}");
+    }
+
+    #[test]
+    fn a_number_that_a_branch_has_changed_is_compared_after_it() {
+        for (lines, wanted) in [
+            (
+                "if x < target { x += 3*dt } if x > target { x -= 3*dt }",
+                &[
+                    "while x < target, then x <= target",
+                    "while x >= target, then x > target",
+                    "while x < target, then x > target",
+                ][..],
+            ),
+            (
+                "x += v*dt; x = clamp(x, 0, 100)",
+                &[
+                    "within the limits of `clamp(x, 0, 100)`",
+                    "at the lower limit of `clamp(x, 0, 100)`",
+                    "at the upper limit of `clamp(x, 0, 100)`",
+                ],
+            ),
+            (
+                "v = clamp(v, -3, 3); x += v*dt",
+                &[
+                    "within the limits of `clamp(v, -3, 3)`",
+                    "beyond the limits of `clamp(v, -3, 3)`",
+                ],
+            ),
+            ("v -= sign(v)*3*dt; x += v*dt", &["while v > 0", "while v < 0"]),
+        ] {
+            let pieces = Rule::read(lines, 60.0).unwrap().pieces();
+            let mut found: Vec<&str> = pieces.iter().map(|piece| &*piece.condition).collect();
+            let mut wanted = wanted.to_vec();
+            found.sort_unstable();
+            wanted.sort_unstable();
+            assert_eq!(found, wanted, "{lines}");
+        }
     }
 }
