@@ -13,6 +13,10 @@ const HALVINGS: u32 = 40;
 /// Digits of the numbers that a frame sets, and a factor that is no more than rounding.
 const DIGITS: usize = 4;
 const ROUNDING: f64 = 1e-9;
+/// A term of a sum in words after its sign.
+type Term = (char, String);
+/// The sign of a term that some frames add and some take away.
+const EITHER: char = '\u{b1}';
 
 /// A piece lasts if more than one in this many runs stays in it, for one that comes to it, or for a while.
 const FEW: u32 = 5;
@@ -100,17 +104,15 @@ impl Piece {
     pub fn sets(&self) -> Vec<(&str, Option<String>)> {
         let text = &self.rule.text;
         let all = text.carried().iter().enumerate().filter_map(|(index, carried)| {
-            let mut values: Vec<Option<String>> =
-                self.modes.iter().map(|modes| self.value_after(modes, index)).collect();
-            values.dedup();
-            let value = values.pop().filter(|_| values.is_empty()).flatten();
+            let values = self.modes.iter().map(|modes| self.terms_after(modes, index));
+            let value = values.reduce(either).flatten().map(written);
             (value.as_ref() != Some(&carried.name)).then_some((&*carried.name, value))
         });
         all.collect()
     }
 
-    /// Returns a carried number after a frame with these modes in words; `None` if the frame is not linear.
-    fn value_after(&self, modes: &[i64], index: usize) -> Option<String> {
+    /// Returns a carried number after a frame with these modes as a sum; `None` if the frame is not linear.
+    fn terms_after(&self, modes: &[i64], index: usize) -> Option<Vec<Term>> {
         let (rule, text) = (&self.rule, &self.rule.text);
         let h = rule.step_length(rule.fps);
         let count = text.carried().len();
@@ -122,31 +124,48 @@ impl Piece {
         if (one.values[index] - sum).abs() > ROUNDING * (1.0 + sum.abs()) {
             return None;
         }
-        let mut terms: Vec<(f64, String)> = Vec::new();
         let number = |factor: f64| round(factor.abs(), DIGITS);
+        let sign = |factor: f64| if factor < 0.0 { '\u{2212}' } else { '+' };
+        let mut terms: Vec<Term> = Vec::new();
         for (factor, name) in factors.zip(names).filter(|(factor, _)| factor.abs() > ROUNDING) {
             let is_one = (factor.abs() - 1.0).abs() <= ROUNDING;
             let words =
                 if is_one { name.to_owned() } else { format!("{} times {name}", number(factor)) };
-            terms.push((factor, words));
+            terms.push((sign(factor), words));
         }
         if zero.values[index].abs() > ROUNDING {
-            terms.push((zero.values[index], number(zero.values[index])));
+            terms.push((sign(zero.values[index]), number(zero.values[index])));
         }
-        // A positive term comes first.
-        terms.sort_by_key(|(factor, _)| *factor < 0.0);
-        let mut written = String::new();
-        for (factor, words) in terms {
-            let sign = match (written.is_empty(), factor < 0.0) {
-                (true, true) => "\u{2212}",
-                (true, false) => "",
-                (false, true) => " \u{2212} ",
-                (false, false) => " + ",
-            };
-            written += &format!("{sign}{words}");
-        }
-        Some(if written.is_empty() { "0".into() } else { written })
+        Some(terms)
     }
+}
+
+/// Returns a sum that is one or the other, if no more than the sign of one term differs.
+fn either(one: Option<Vec<Term>>, other: Option<Vec<Term>>) -> Option<Vec<Term>> {
+    let (mut one, other) = (one?, other?);
+    let mut differs = 0;
+    for (term, other) in one.iter_mut().zip(&other) {
+        let is_other = term.0 != other.0;
+        differs += u32::from(is_other || term.0 == EITHER);
+        term.0 = if is_other { EITHER } else { term.0 };
+    }
+    let is_same = one.iter().map(|it| &it.1).eq(other.iter().map(|it| &it.1));
+    (is_same && differs < 2).then_some(one)
+}
+
+/// Writes a sum, with a positive term first.
+fn written(mut terms: Vec<Term>) -> String {
+    terms.sort_by_key(|(sign, _)| *sign != '+');
+    let mut written = String::new();
+    for (sign, words) in terms {
+        let sign = match (written.is_empty(), sign) {
+            (true, '+') => String::new(),
+            (true, sign) => sign.into(),
+            (false, sign) => format!(" {sign} "),
+        };
+        written += &format!("{sign}{words}");
+    }
+    if written.is_empty() { "0".into() } else { written }
 }
 
 #[cfg(test)]
@@ -188,6 +207,11 @@ mod tests {
                 "if abs(target - x) > 50 { x = target + 1 }",
                 "beyond 50 of the target",
                 &[("x", "target + 1")],
+            ),
+            (
+                "if abs(v) > 300 { v = 300*sign(v) } x += v",
+                "when abs(v) > 300",
+                &[("x", "x \u{b1} 300"), ("v", "\u{b1}300")],
             ),
         ] {
             let all = pieces(lines);
