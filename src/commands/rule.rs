@@ -198,6 +198,7 @@ fn object(rule: &Rule, written: &str) -> Value {
         })),
         "within": rule.settles_within(),
         "jump_speed": rule.jump_speed(),
+        "jitter": rule.jitter(rule.fps()),
         "hint": hint(rule, written),
         "rings_below_fps": rule.rings_below_fps(),
         "explodes_below_fps": rule.explodes_below_fps(),
@@ -293,7 +294,11 @@ fn drive(rule: &Rule, motions: &[VisibleMotion]) -> String {
         let jumps = motions.iter().any(|seen| seen.jump.is_some());
         let columns = if jumps { DRIVEN } else { &DRIVEN[..WITHOUT_JUMP] };
         said += &text(columns, motions, "  ");
-        said += if rule.has_speeds_of_v() { "speeds are in the units of v\n" } else { "" };
+        said += match rule.has_speeds_of_v() {
+            true => "speeds are in the units of v\n",
+            false if rule.units() != 1.0 => "speeds are per second\n",
+            false => "",
+        };
         said += &uneven_drive(motions).unwrap_or_default();
     }
     if let Some(speed) = rule.jump_speed() {
@@ -484,6 +489,10 @@ fn report_text(rule: &Rule, written: &str, form: CodeForm) -> String {
     if !rule.takes_step() {
         said +=
             "without dt: every frame moves it alike, so it is twice as fast at twice the rate\n";
+    }
+    if let Some(width) = rule.jitter(fps) {
+        let width = significant(width, 4);
+        said += &format!("at {fps} frames per second it ends in a jitter {width} wide\n");
     }
     let explodes_below = rule.explodes_below_fps();
     for (verb, below) in [("rings", rule.rings_below_fps()), ("grows", explodes_below)] {

@@ -23,6 +23,7 @@ pub use scene::rule_scene;
 mod any_rate;
 mod bounce;
 mod driven;
+mod jitter;
 mod label;
 mod once;
 mod pieces;
@@ -168,6 +169,11 @@ impl Rule {
     #[must_use]
     pub fn in_units(self, units: f64) -> Self {
         Self { units, ..self }.settled()
+    }
+
+    /// Returns the units of the length of a frame in a second.
+    pub fn units(&self) -> f64 {
+        self.units
     }
 
     /// Returns the rule that has settled within this fraction of the way, between 0 and 1.

@@ -349,7 +349,8 @@ impl Piece {
 
     /// Whether nothing draws the body to a place, so that it stops by its speed alone.
     pub fn coasts(&self) -> bool {
-        matches!(self.rule.motion(self.rule.fps), Some(Motion::Coast { .. }))
+        let changes = !self.rule.text.leaves_unchanged(1);
+        changes && matches!(self.rule.motion(self.rule.fps), Some(Motion::Coast { .. }))
     }
 
     /// Returns when the whole `rule` first is in this piece at the author's rate, in seconds, from rest at 1, or from a

@@ -40,6 +40,7 @@ fn a_spring_without_dt_is_twice_as_fast_at_twice_the_rate() {
         "pieces",
         "bounce",
         "within",
+        "jitter",
         "jump_speed",
         "hint",
         "rings_below_fps",
