@@ -27,7 +27,10 @@ pub(super) fn operator_signs() -> impl Iterator<Item = &'static str> {
 }
 
 /// Signs of other notations, each with our sign.
-const FOREIGN: [(&str, &str); 11] = [
+const FOREIGN: [(&str, &str); 14] = [
+    (">>", "floor(x / 2^n)"),
+    ("<<", "x * 2^n"),
+    ("~~", "trunc(x)"),
     ("**", "^"),
     ("&&", "and"),
     ("||", "or"),
@@ -40,6 +43,10 @@ const FOREIGN: [(&str, &str); 11] = [
     ("×", "*"),
     ("÷", "/"),
 ];
+
+/// The remedy for a call that reads keys or a stick.
+pub(super) const INPUT: &str =
+    "lines read no input: write a number for it, such as `1` while a key is held";
 
 /// Python's `//` in lines whose other `//` are remarks.
 pub(super) const FLOOR_DIVISION: &str = "/\\";
@@ -101,6 +108,7 @@ pub(super) fn tokens(text: &str, is_step: bool) -> Parsed<Vec<(Token, Range<usiz
             let what = format!("`{}` cannot be in an expression", first.escape_debug());
             let remedy = match first {
                 '?' => "write `if(c, a, b)` for `c ? a : b`",
+                '"' | '\'' if is_step => INPUT,
                 _ => "remove it",
             };
             return fault(at..at + first.len_utf8(), what, remedy);

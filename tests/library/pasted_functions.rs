@@ -135,6 +135,13 @@ fn what_a_function_cannot_say_is_refused_with_its_remedy() {
         ("x = lerp(x, target, t)", 20..21, "unknown name `t`", "let t = 1"),
         ("move_and_slide()", 0..16, "`move_and_slide(…)` is a call", "x += v * dt"),
         ("enemies.lerp(target, 0.1)", 0..25, "`enemies.lerp(target, 0.1)` is one part", "`x`"),
+        ("x++", 0..3, "`x` is counted", "write `x += 1`"),
+        ("x += (target - x) >> 3", 18..20, "`>>` has no meaning here", "floor(x / 2^n)"),
+        ("x = ~~(x + v)", 4..6, "`~~` has no meaning here", "trunc(x)"),
+        ("v += Vector2(0, 9)*dt; x += v", 5..12, "unknown function `Vector2`", "one component"),
+        ("if (keyboard_check(9)) x += v", 4..18, "unknown function `keyboard_check`", "no input"),
+        ("if is_down(\"left\"): x += v", 11..12, "`\\\"` cannot be in an expression", "no input"),
+        ("x += v; requestAnimationFrame(f)", 8..32, "`requestAnimationFrame(…)`", "remove it"),
         ("for i in range(4): x += v", 0..3, "`for` cannot stand in a step", "while n < 4"),
     ] {
         let fault = Rule::read(text, FPS).unwrap_err();

@@ -6,7 +6,7 @@ use super::Parser;
 use crate::fault::{Parsed, fault, quoted};
 use crate::function::Function;
 use crate::op::{Level, OPERATOR_WORDS};
-use crate::token::Token;
+use crate::token::{INPUT, Token};
 
 /// The remedy for a turn by an angle at most.
 const ROTATE: &str =
@@ -20,10 +20,19 @@ const REMEDIES: [(&str, &str); 4] = [
     ("smoothdampangle", "write the angle as a number that does not wrap: `SmoothDamp`"),
 ];
 
+/// Words in the names of functions that read keys or a stick, and that make a vector.
+const INPUTS: [&str; 6] = ["key", "press", "axis", "held", "button", "isdown"];
+const VECTORS: [&str; 3] = ["vector", "vec2", "vec3"];
+const ONE_COMPONENT: &str = "a step moves one number: write one component of the vector";
+
 /// Returns the remedy for this function: how lines of one number do the same.
 pub(super) fn remedy(function: &str) -> Option<&'static str> {
     let found = REMEDIES.iter().find(|(name, _)| name.eq_ignore_ascii_case(function));
-    found.map(|(_, remedy)| *remedy)
+    let name = function.to_ascii_lowercase();
+    let has = |words: &[&str]| words.iter().any(|word| name.contains(word));
+    let other = [(has(&VECTORS), ONE_COMPONENT), (has(&INPUTS), INPUT)];
+    let other = other.iter().find(|(is_it, _)| *is_it);
+    found.map(|(_, remedy)| *remedy).or(other.map(|(_, remedy)| *remedy))
 }
 
 /// Returns the function that makes a number of this type.

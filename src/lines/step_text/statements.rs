@@ -415,8 +415,9 @@ impl Reader<'_> {
                 }
                 Some('(') => (
                     format!("`{written}(…)` is a call"),
-                    "write an assignment, such as `x += v * dt`",
+                    "remove it if it moves nothing, or write an assignment, such as `x += v * dt`",
                 ),
+                Some('+' | '-') => (format!("`{written}` is counted"), "write `x += 1`"),
                 _ if ["fail", "stay"].contains(&&*written) => {
                     return Ok(Statement::Stop(name, written == "fail"));
                 }
