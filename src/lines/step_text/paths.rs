@@ -18,6 +18,15 @@ const SEPARATORS: [&str; 3] = [".", "::", "->"];
 const OWN_PARTS: [&str; 9] =
     ["this", "self", "transform", "body", "rb", "rigidbody", "sprite", "node", "instance"];
 
+/// Functions that round halves in another way than `round`, each with its name here.
+const ROUNDINGS: [(&str, &str); 5] = [
+    ("Math.round", "roundUp"),
+    ("Math.Round", "roundEven"),
+    ("MathF.Round", "roundEven"),
+    ("Mathf.Round", "roundEven"),
+    ("Mathf.RoundToInt", "roundEven"),
+];
+
 /// A component of a vector that a text reads or assigns, such as the `x` of `velocity.x`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Component {
@@ -190,7 +199,11 @@ fn reduce_path(text: &mut [u8], parts: &[Range<usize>], bodies: &Bodies) -> Opti
         text[body.clone()].fill(b' ');
         text[body.start..body.start + OTHER_PLACE.len()].copy_from_slice(OTHER_PLACE.as_bytes());
     }
-    if is_namespace {
+    let written = names.join(".");
+    if let Some((_, name)) = ROUNDINGS.iter().find(|(path, _)| is_call && *path == written) {
+        text[parts[0].start..end].fill(b' ');
+        text[end - name.len()..end].copy_from_slice(name.as_bytes());
+    } else if is_namespace {
         lower_name(&mut text[parts[kept[0]].start..]);
     }
     component
@@ -324,6 +337,8 @@ mod tests {
             ("position.lerp(target.position, 1)", "position.lerp(target         , 1)", ""),
             ("this.pos->lerp(goal.y, 1)", "     pos .lerp(goal  , 1)", "y"),
             ("this.x += rb.speed", "     x +=    speed", "x"),
+            ("x = Math.round(x)", "x =    roundUp(x)", ""),
+            ("x = Mathf.RoundToInt(x)", "x =        roundEven(x)", ""),
             ("std::f64::consts::PI", "                  pi", ""),
             ("time.delta_secs()", "     delta_secs  ", ""),
             ("f(x, ref vel, &v) & 0.5.abs()", "f(x,     vel,  v) & 0.5.abs()", ""),

@@ -111,6 +111,8 @@ mod tests {
             ("x += trunc((target - x)/8)", [7.0, -7.0]),
             ("x += int((target - x)/8)", [7.0, -7.0]),
             ("x += round((target - x)/8)", [3.0, -3.0]),
+            ("x += Math.round((target - x) * 0.1)", [5.0, -4.0]),
+            ("x += Mathf.Round((target - x) * 0.1)", [5.0, -5.0]),
             ("x = round(x + (target - x) * 0.1)", [5.0, -4.0]),
             ("x = int(x + (target - x) * 0.1)", [0.0, -9.0]),
             ("x = (x + (target - x) * 0.1) | 0", [0.0, -9.0]),
