@@ -1,6 +1,7 @@
 //! The top speed, the acceleration and the jump of a rule that drives its velocity without looking at the place.
 
 use super::{HALVINGS, MAX_WATCHED, Rule};
+use crate::sim::law::SwitchKind;
 use crate::sim::numerics::bisect;
 
 /// Number of frames of the author in which gravity stops the speed of a jump.
@@ -157,9 +158,17 @@ impl Rule {
     fn set_speeds(&self) -> Vec<f64> {
         let (text, h) = (&self.text, self.step_length(self.fps));
         let mut tried: Vec<Vec<i64>> = Vec::new();
+        // A clamp of the velocity sets none.
+        let free = text.free_modes();
+        let is_free = |modes: &Vec<i64>| {
+            let mut kinds = text.switches().map(|(kind, _)| kind).zip(free.iter().zip(modes));
+            kinds.all(|(kind, (free, mode))| {
+                kind != SwitchKind::Limit || free.is_none_or(|free| free == *mode)
+            })
+        };
         for at in self.whole().tried(self.last_decade(), SET_TRIED) {
             let modes = text.modes(h, &at, 0.0);
-            if !tried.contains(&modes) {
+            if is_free(&modes) && !tried.contains(&modes) {
                 tried.push(modes);
             }
         }
@@ -299,6 +308,9 @@ mod tests {
         // Between the highest speed that a frame reaches and the lowest to which the limit drops it.
         let mean = Rule::read(drop, 60.0).unwrap().motion_at(240.0).top_speed.unwrap();
         assert!((19.0..20.25).contains(&mean), "{mean}");
+        let lines = "v -= 30*dt; v = clamp(v, -20, 20); x += v*dt; if x < 0 { x = 0; v = 12 }";
+        let pieces = Rule::read(lines, 60.0).unwrap().pieces();
+        assert_eq!(pieces[0].rule.jump_speed(), Some(12.0));
         let lines = "v += 900*dt; x += v*dt; if x > 0 { x = 0; v = -400 }";
         let pieces = Rule::read(lines, 60.0).unwrap().pieces();
         assert_eq!(pieces[0].rule.jump_speed(), Some(-400.0));

@@ -59,6 +59,24 @@ impl Rule {
         let both = [simple.clone(), joined.clone()].concat();
         let before = self.text.switches_before();
         let of = |parts: &[&Part]| {
+            let mut parts = parts.to_vec();
+            // Of two conditions of which one holds wherever the other does, the narrower one says all.
+            let is_wide =
+                |part: &Part| [" <= ", " >= "].iter().any(|sign| part.words.contains(sign));
+            let is_in_turn = |part: &Part, other: &&Part| {
+                let [Some(one), Some(other)] = [part.switch, other.switch] else { return false };
+                before[one].contains(&other) || before[other].contains(&one)
+            };
+            for wide in [true, false] {
+                for index in (0..parts.len()).rev() {
+                    let (part, without) =
+                        (parts[index], [&parts[..index], &parts[index + 1..]].concat());
+                    let is_alone = !without.iter().any(|other| is_in_turn(part, other));
+                    if is_wide(part) == wide && is_alone && is_exact(&without) {
+                        parts = without;
+                    }
+                }
+            }
             let mut label = String::new();
             for (index, part) in parts.iter().enumerate() {
                 // A number that a branch has changed is compared after it.

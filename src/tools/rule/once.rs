@@ -23,8 +23,11 @@ const FEW: u32 = 5;
 /// Maximum number of frames in a row after which a run has not stayed for a while.
 const MOST: u32 = 2;
 
+/// A run comes again soon within this number of frames, as one that jitters about a target does.
+const SOON: u32 = 4;
+
 /// The runs that begin in a group, and those of them that stay for a frame or for a while. The frames that come to it
-/// from another group, and those of them that come again after one frame elsewhere, or after which it still holds.
+/// from another group, and those of them that come again soon, or after which it still holds.
 #[derive(Clone, Default)]
 struct Frames {
     begun: u32,
@@ -53,7 +56,8 @@ impl Rule {
         let tried: Vec<Vec<f64>> = self.tried(last_decade, RUNS).filter(is_far).collect();
         let borders = tried.windows(2).filter_map(|ends| border(ends, group_at));
         for mut at in tried.iter().cloned().chain(borders) {
-            let ([mut last, mut before], mut now, mut is_first) = ([None; 2], group_at(&at), true);
+            let (mut before, mut now, mut is_first) = (None, group_at(&at), true);
+            let mut left_at = vec![None; groups.len()];
             for frame in 0..FRAMES {
                 for (index, value) in at.iter().enumerate() {
                     text.set(&mut registers, index, *value);
@@ -71,10 +75,15 @@ impl Rule {
                     is_first &= next == now;
                     frames.last += u32::from(is_first && frame == MOST);
                     frames.come += comes;
-                    frames.again += comes * u32::from(last == now);
+                    let left_at = now.and_then(|group| left_at[group]);
+                    frames.again +=
+                        comes * u32::from(left_at.is_some_and(|left| frame - left <= SOON));
                     frames.come_stay += comes * stays;
                 }
-                (last, before, now) = (before, now, next);
+                if let Some(group) = now.filter(|_| next != now) {
+                    left_at[group] = Some(frame);
+                }
+                (before, now) = (now, next);
             }
         }
         let leaves = |frames: &Frames| {
@@ -235,6 +244,7 @@ mod tests {
             "x += v*dt; if x > 10 { x = 10 }",
             "v *= 0.9; if v < 0.3 { v = 0.3 } x += v*dt",
             "if v > 0 { v -= 0.2 } else { v += 0.2 } x += v",
+            "if target > x { x += 100*dt } else if target < x { x -= 50*dt }",
         ] {
             let all = pieces(lines);
             let is_once = all.iter().any(|piece| piece.course() == Some(Course::Once));
