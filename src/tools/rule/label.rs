@@ -63,16 +63,17 @@ impl Rule {
             // Of two conditions of which one holds wherever the other does, the narrower one says all.
             let is_wide =
                 |part: &Part| [" <= ", " >= "].iter().any(|sign| part.words.contains(sign));
-            let is_in_turn = |part: &Part, other: &&Part| {
-                let [Some(one), Some(other)] = [part.switch, other.switch] else { return false };
-                before[one].contains(&other) || before[other].contains(&one)
+            let is_before = |part: &Part, other: &&Part| {
+                let both = part.switch.zip(other.switch);
+                both.is_some_and(|(part, other)| before[other].contains(&part))
             };
             for wide in [true, false] {
                 for index in (0..parts.len()).rev() {
                     let (part, without) =
                         (parts[index], [&parts[..index], &parts[index + 1..]].concat());
-                    let is_alone = !without.iter().any(|other| is_in_turn(part, other));
-                    if is_wide(part) == wide && is_alone && is_exact(&without) {
+                    let is_narrow = wide || !without.iter().any(|other| is_wide(other));
+                    let is_last = !without.iter().any(|other| is_before(part, other));
+                    if is_wide(part) == wide && is_narrow && is_last && is_exact(&without) {
                         parts = without;
                     }
                 }
@@ -304,6 +305,14 @@ mod tests {
                 ],
             ),
             ("v -= sign(v)*3*dt; x += v*dt", &["while v > 0", "while v < 0"]),
+            (
+                "v += 6*dt; if v > 3 { v = 3 } if v < -3 { v = -3 } x += v*dt",
+                &["while v > 3", "while v <= 3, then v >= -3", "when v <= 3, then v < -3"],
+            ),
+            (
+                "if target > x { x += 9*dt } else if target < x { x -= 5*dt }",
+                &["while target > x", "while target < x"],
+            ),
         ] {
             let pieces = Rule::read(lines, 60.0).unwrap().pieces();
             let mut found: Vec<&str> = pieces.iter().map(|piece| &*piece.condition).collect();
