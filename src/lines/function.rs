@@ -127,11 +127,14 @@ pub(super) static FUNCTIONS: [Function; 21] = [
 ];
 
 /// The functions of step lines that laws do not have.
-pub(super) static STEP_FUNCTIONS: [Function; 41] = [
+pub(super) static STEP_FUNCTIONS: [Function; 43] = [
     written("lerp", &["a", "b", "part"], "a + (b - a) * part"),
     function("pow", &["base", "exponent"], Meaning::Power),
     // Halves go away from 0.
     smooth("round", &["x"], |x, _| libm::round(x), |x, _| constant(libm::round(x[0]))).rounding(),
+    // Unity's.
+    written("lerp01", &["a", "b", "part"], "lerp(a, b, clamp01(part))"),
+    written("inverseLerp01", &["a", "b", "x"], "clamp01(inverse_lerp(a, b, x))"),
     // JavaScript's and Java's halves go up, those of C# to the even number.
     written("roundUp", &["x"], "floor(x + 0.5)"),
     written("roundEven", &["x"], "if(x - floor(x) == 0.5, 2 * floor(x / 2 + 0.5), floor(x + 0.5))"),

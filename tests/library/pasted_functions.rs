@@ -10,7 +10,7 @@ use crate::rules::{FPS, code, frames};
 const CHASE: &str = "x += (target - x) * 5 * dt";
 
 /// Lines as they are pasted, each with the plain lines that it means.
-const PASTED: [(&str, &str); 46] = [
+const PASTED: [(&str, &str); 51] = [
     // Functions around the lines.
     ("void Update() { x += (target - x) * 5 * Time.deltaTime; }", CHASE),
     (
@@ -100,6 +100,18 @@ const PASTED: [(&str, &str); 46] = [
         "x = x + v\nwhile x > 3 do\n  x = x - 3\nend",
         "x += v; if x > 3 { x -= 3 * ceil((x - 3) / 3) }",
     ),
+    // A place that is read, changed and written.
+    (
+        "var pos = transform.position;\npos.x = lerp(pos.x, target.position.x, 5 * dt);\ntransform.position = pos;",
+        CHASE,
+    ),
+    ("local pos = part.Position\npos = pos + (target - pos)*5*dt\npart.Position = pos", CHASE),
+    (
+        "Vector3 vel = rb.velocity;\nvel.x *= 0.9f;\nrb.velocity = vel;\nx += vel.x;",
+        "v *= 0.9; x += v",
+    ),
+    ("x = Mathf.Lerp(x, target, 70 * Time.deltaTime)", "x = target"),
+    ("x = Mathf.Lerp(x, target, 5 * Time.deltaTime)", CHASE),
     // A coordinate and its target by their names.
     ("zoom = lerp(zoom, target_zoom, 0.1)", "x += (target - x) * 0.1"),
     ("this.scale += (this.targetScale - this.scale) * 0.1", "x += (target - x) * 0.1"),
@@ -135,6 +147,8 @@ fn what_a_function_cannot_say_is_refused_with_its_remedy() {
         ("x = lerp(x, target, t)", 20..21, "unknown name `t`", "let t = 1"),
         ("move_and_slide()", 0..16, "`move_and_slide(…)` is a call", "x += v * dt"),
         ("enemies.lerp(target, 0.1)", 0..25, "`enemies.lerp(target, 0.1)` is one part", "`x`"),
+        ("vel.x += acc.x*dt; x += vel.x", 9..12, "unknown name `acc`", "let acc = 1"),
+        ("if time.elapsed() > 1 { x = 1 }", 3..7, "unknown name `time`", "let time = 1"),
         ("x++", 0..3, "`x` is counted", "write `x += 1`"),
         ("x += (target - x) >> 3", 18..20, "`>>` has no meaning here", "floor(x / 2^n)"),
         ("x = ~~(x + v)", 4..6, "`~~` has no meaning here", "trunc(x)"),

@@ -77,7 +77,8 @@ impl Parser<'_> {
             return fault(name.start..end, what, remedy);
         }
         self.expect(")", "the arguments")?;
-        let span = name.start..self.tokens[self.next - 1].1.end;
+        let start = receiver.map_or(name.start, |receiver| self.span_of(receiver).start);
+        let span = start..self.tokens[self.next - 1].1.end;
         let condition = matches!(function.meaning, Meaning::If);
         for (index, &argument) in arguments.iter().enumerate() {
             if condition && index == 0 {

@@ -18,8 +18,28 @@ const SEPARATORS: [&str; 3] = [".", "::", "->"];
 const OWN_PARTS: [&str; 9] =
     ["this", "self", "transform", "body", "rb", "rigidbody", "sprite", "node", "instance"];
 
-/// Functions that round halves in another way than `round`, each with its name here.
-const ROUNDINGS: [(&str, &str); 5] = [
+/// Vectors whose components are no places.
+const NO_PLACES: [&str; 12] = [
+    "acc",
+    "accel",
+    "acceleration",
+    "dir",
+    "direction",
+    "input",
+    "gravity",
+    "force",
+    "wind",
+    "size",
+    "scale",
+    "move",
+];
+
+/// Functions that differ from ours of the same name, each with its name here. Unity's keep their part between 0 and 1.
+const OTHERS: [(&str, &str); 9] = [
+    ("Mathf.Lerp", "lerp01"),
+    ("Vector2.Lerp", "lerp01"),
+    ("Vector3.Lerp", "lerp01"),
+    ("Mathf.InverseLerp", "inverseLerp01"),
     ("Math.round", "roundUp"),
     ("Math.Round", "roundEven"),
     ("MathF.Round", "roundEven"),
@@ -74,7 +94,12 @@ impl Bodies {
         let mut others = read.iter().filter(|owner| !own.contains(owner));
         has_place |= read.iter().any(|owner| own.contains(owner));
         let goal = others.next().filter(|first| others.all(|other| other == *first));
-        let goal = goal.filter(|_| has_place && !has_target).cloned();
+        let is_no_place = |goal: &&String| {
+            let last = goal.rsplit('.').next().unwrap_or_default().to_ascii_lowercase();
+            NO_PLACES.contains(&&*last)
+        };
+        let goal = goal.filter(|_| has_place && !has_target);
+        let goal = goal.filter(|goal| !is_no_place(goal)).cloned();
         Self { own, goal, is_lone }
     }
 
@@ -114,7 +139,30 @@ pub(super) fn reduce(text: &mut [u8]) -> Vec<Component> {
         }
         at = end;
     }
+    merge_copies(text);
     components
+}
+
+/// Gives a place or a velocity and its copy one name, as in `pos = position`, the shorter one.
+fn merge_copies(text: &mut [u8]) {
+    let whole = String::from_utf8_lossy(text).into_owned();
+    for statement in whole.split([';', '\n', '{', '}']) {
+        let Some((left, right)) = statement.split_once('=') else { continue };
+        let (left, right) = (left.split_whitespace().next_back(), right.trim());
+        let is =
+            |index| left.is_some_and(|left| is_name_of(index, left)) && is_name_of(index, right);
+        let Some(left) = left.filter(|left| *left != right && (is(X) || is(V))) else { continue };
+        let (short, long) = if left.len() < right.len() { (left, right) } else { (right, left) };
+        let mut at = 0;
+        while at < text.len() {
+            let length = text[at..].iter().take_while(|byte| is_name_part(**byte)).count();
+            if text[at..at + length] == *long.as_bytes() {
+                text[at..at + length].fill(b' ');
+                text[at..at + short.len()].copy_from_slice(short.as_bytes());
+            }
+            at += length.max(1);
+        }
+    }
 }
 
 /// Returns the parts of each name of a text, dotted or not.
@@ -167,8 +215,9 @@ fn reduce_path(text: &mut [u8], parts: &[Range<usize>], bodies: &Bodies) -> Opti
     let is_namespace = first.starts_with(|c: char| c.is_ascii_uppercase())
         || text[parts[0].end] == b':'
         || NAMESPACES.contains(&&**first) && (parts.len() == 2 || !is_call);
-    let is_step_call =
-        STEP_NAMES.contains(&&*names[last]) && text[end + blanks..].starts_with(b"()");
+    let is_step_call = STEP_NAMES.contains(&&*names[last])
+        && names[last] != "elapsed"
+        && text[end + blanks..].starts_with(b"()");
     let mut component = None;
     let mut kept = vec![last];
     let mut goal_at = None;
@@ -200,9 +249,9 @@ fn reduce_path(text: &mut [u8], parts: &[Range<usize>], bodies: &Bodies) -> Opti
         text[body.start..body.start + OTHER_PLACE.len()].copy_from_slice(OTHER_PLACE.as_bytes());
     }
     let written = names.join(".");
-    if let Some((_, name)) = ROUNDINGS.iter().find(|(path, _)| is_call && *path == written) {
+    if let Some((_, name)) = OTHERS.iter().find(|(path, _)| is_call && *path == written) {
         text[parts[0].start..end].fill(b' ');
-        text[end - name.len()..end].copy_from_slice(name.as_bytes());
+        text[parts[0].start..parts[0].start + name.len()].copy_from_slice(name.as_bytes());
     } else if is_namespace {
         lower_name(&mut text[parts[kept[0]].start..]);
     }
@@ -337,8 +386,18 @@ mod tests {
             ("position.lerp(target.position, 1)", "position.lerp(target         , 1)", ""),
             ("this.pos->lerp(goal.y, 1)", "     pos .lerp(goal  , 1)", "y"),
             ("this.x += rb.speed", "     x +=    speed", "x"),
-            ("x = Math.round(x)", "x =    roundUp(x)", ""),
-            ("x = Mathf.RoundToInt(x)", "x =        roundEven(x)", ""),
+            ("x = Math.round(x)", "x = roundUp   (x)", ""),
+            ("x = Mathf.RoundToInt(x)", "x = roundEven       (x)", ""),
+            (
+                "var pos = transform.position; pos.x += 1",
+                "var pos =           pos     ; pos   += 1",
+                "x",
+            ),
+            (
+                "Vector3 vel = rb.velocity; rb.velocity = vel;",
+                "Vector3 vel =    vel     ;    vel      = vel;",
+                "",
+            ),
             ("std::f64::consts::PI", "                  pi", ""),
             ("time.delta_secs()", "     delta_secs  ", ""),
             ("f(x, ref vel, &v) & 0.5.abs()", "f(x,     vel,  v) & 0.5.abs()", ""),

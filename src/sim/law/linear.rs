@@ -63,7 +63,7 @@ impl Frame {
 
 /// Whether the second number of this map is the first number of the frame before.
 pub fn remembers_place(map: &Matrix2<f64>) -> bool {
-    map.m21 == 1.0 && map.m22 == 0.0
+    (map.m21 - 1.0).abs() <= AT_TARGET && map.m22.abs() <= AT_TARGET
 }
 
 /// The body like which a linear rule moves, per kilogram.
