@@ -381,8 +381,15 @@ fn outcome(piece: &Piece, whole: &Rule) -> String {
             };
             format!("{rest}a spring of {} Hz{ratio}", number(spring.undamped_hz()))
         }
-        (None, VisibleMotion { accelerates: Some(gain), top_speed: None, .. }) => {
-            format!("the speed changes by {} a second", number(gain.abs()))
+        (None, VisibleMotion { accelerates: Some(gain), top_speed: None, halves_s, .. }) => {
+            let gain = number(gain.abs());
+            match halves_s {
+                None => format!("the speed changes by {gain} a second"),
+                Some(s) => format!(
+                    "from rest the speed changes by {gain} a second; what its last speed lacks halves in {} s",
+                    number(s)
+                ),
+            }
         }
         (None, VisibleMotion { halves_s: Some(s), .. }) => format!("halves in {} s", number(s)),
         (None, seen) if seen.grows => "it grows".into(),
@@ -525,8 +532,10 @@ fn report_text(rule: &Rule, written: &str, form: CodeForm) -> String {
     }
     if let Some(approach) = rule.approach() {
         let [half, rate] = [approach.half_life_s, approach.rate()].map(|x| significant(x, 4));
-        said +=
-            &format!("\nat {fps} frames per second it halves in {half} s: 1 - exp(-{rate} dt)\n");
+        let of_v = if rule.approaches_by_v() { "; x below is your v" } else { "" };
+        said += &format!(
+            "\nat {fps} frames per second it halves in {half} s: 1 - exp(-{rate} dt){of_v}\n"
+        );
         for port in followers(approach, Some(fps)).iter().filter(|port| port.fps == fps) {
             said += &format!("  {:26}  {}\n", port.method.id, port.code);
         }

@@ -406,6 +406,11 @@ impl Rule {
         self.text.takes_target().then_some(Approach { half_life_s })
     }
 
+    /// Whether the velocity goes to the target, and not the place.
+    pub fn approaches_by_v(&self) -> bool {
+        self.state[0] == 1 || self.stays
+    }
+
     /// Returns the distance that a body coasts under friction alone at the author's frame rate, in seconds of its
     /// speed. A rule that changes no place has two distances, one if the body moves after the friction of a frame, and
     /// one if it moves before.

@@ -190,16 +190,26 @@ impl Rule {
         self.modes.is_empty() || is_in(start) && is_in(-start)
     }
 
-    /// Returns the height of a jump and its time in seconds, until it is back where it began.
+    /// Returns the height of a jump and its time in seconds, until it is back where it began. A piece jumps by its own
+    /// map.
     pub(super) fn jump(&self, fps: f64) -> Option<[f64; 2]> {
         let start = self.jump_speed()?;
+        let h = self.step_length(fps);
+        let mut at = vec![0.0; self.text.carried().len()];
+        (at[0], at[1]) = (0.0, start);
         let mut registers = self.text.registers();
-        self.text.set(&mut registers, 0, 0.0);
-        self.text.set(&mut registers, 1, start);
         let mut height = 0.0_f64;
         for frame in 1..MAX_WATCHED as u32 {
-            self.text.step(&mut registers, self.step_length(fps), 0.0);
-            let place = self.text.value(&registers, 0) * start.signum();
+            if self.modes.is_empty() {
+                at.iter().enumerate().for_each(|(index, value)| {
+                    self.text.set(&mut registers, index, *value);
+                });
+                self.text.step(&mut registers, h, 0.0);
+                (0..at.len()).for_each(|index| at[index] = self.text.value(&registers, index));
+            } else {
+                at = self.text.map_on(&self.modes, h, &at, 0.0).values;
+            }
+            let place = at[0] * start.signum();
             if place.is_nan() || place <= LANDED * height {
                 return (height > 0.0).then_some([height, f64::from(frame) / fps]);
             }

@@ -11,19 +11,39 @@ const SAME: f64 = 0.02;
 /// The width below which a jitter is rounding, for runs from 1.
 const ROUNDING: f64 = 1e-9;
 /// States at which a run starts: the first number and the second.
-const STARTS: [[f64; 2]; 3] = [[1.0, 0.0], [-0.37, 0.0], [0.37, 1.0]];
+const STARTS: [[f64; 2]; 6] =
+    [[1.0, 0.0], [-0.37, 0.0], [0.37, 1.0], [2.7, 0.0], [-11.3, 0.0], [23.0, 0.0]];
+
+/// The end of a run.
+enum End {
+    Rests,
+    /// It turns around every few frames, over this width.
+    Jitters(f64),
+    Else,
+}
 
 impl Rule {
     /// Returns the width of the jitter in which runs of a rule end that is not linear, at this many frames per second.
-    /// `None` if they come to rest, or move on.
+    /// `None` if they come to rest, or move on, or if the start decides the width.
     pub fn jitter(&self, fps: f64) -> Option<f64> {
         if self.is_linear {
             return None;
         }
-        STARTS.into_iter().filter_map(|start| self.jitter_from(start, fps)).reduce(f64::max)
+        let mut widest: Option<f64> = None;
+        for start in STARTS {
+            match (self.end_of_run(start, fps), widest) {
+                (End::Else, _) => return None,
+                (End::Jitters(width), Some(other)) if (width - other).abs() > SAME * other => {
+                    return None;
+                }
+                (End::Jitters(width), _) => widest = Some(width),
+                (End::Rests, _) => {}
+            }
+        }
+        widest
     }
 
-    fn jitter_from(&self, start: [f64; 2], fps: f64) -> Option<f64> {
+    fn end_of_run(&self, start: [f64; 2], fps: f64) -> End {
         let mut registers = self.text.registers();
         for (index, value) in self.state.iter().zip(start) {
             self.text.set(&mut registers, *index, value);
@@ -48,7 +68,11 @@ impl Rule {
         let turns = steps.windows(2).filter(|pair| pair[0] * pair[1] < 0.0).count();
         let is_steady =
             [first - second, moved[0] - moved[1]].iter().all(|apart| apart.abs() <= SAME * second);
-        (is_steady && second > ROUNDING && turns * TURNS >= FRAMES).then_some(second)
+        match second > ROUNDING {
+            false if second.is_finite() => End::Rests,
+            true if is_steady && turns * TURNS >= FRAMES => End::Jitters(second),
+            _ => End::Else,
+        }
     }
 }
 
@@ -63,6 +87,9 @@ mod tests {
             ("if x < target { x += 0.5 } if x > target { x -= 0.25 }", Some(0.25)),
             ("x += sign(target - x)*0.5", Some(0.5)),
             ("v -= sign(v)*0.3; x += v", None),
+            ("x = round(x + (target - x)*2.2)", None),
+            ("if x < target { v += 1 } else { v -= 1 } x += v", None),
+            ("v += 0.2*sign(target - x); v *= 0.9; x += v", None),
             ("x += (target - x)*0.1; if x > 0 { x -= 0.02 }", None),
             ("x = move_toward(x, target, 3*dt)", None),
             ("v -= 10*dt; x += v*dt; if x < 0 { x = 0; v = 10 }", None),

@@ -10,6 +10,8 @@ const RUNS: u32 = 800;
 const FRAMES: u32 = 16;
 /// Number of halvings of the way to the border of a piece.
 const HALVINGS: u32 = 40;
+/// The targets of the runs: at a limit of the place, one may hold the body there.
+const TARGETS: [f64; 3] = [0.0, 1e5, -1e5];
 /// Digits of the numbers that a frame sets, and a factor that is no more than rounding.
 const DIGITS: usize = 4;
 const ROUNDING: f64 = 1e-9;
@@ -42,11 +44,18 @@ impl Rule {
     /// Returns for each group whether the rule leaves it after one frame: from nearly all states that meet its
     /// condition, or from nearly all to which the rule comes from another group that lasts.
     pub(super) fn leaves(&self, groups: &[Group]) -> Vec<bool> {
+        let all = TARGETS.iter().filter(|target| **target == 0.0 || self.text.takes_target());
+        let all: Vec<Vec<bool>> = all.map(|target| self.leaves_to(groups, *target)).collect();
+        (0..groups.len()).map(|group| all.iter().all(|leaves| leaves[group])).collect()
+    }
+
+    /// Returns for each group whether the rule leaves it, as a chase of this target.
+    fn leaves_to(&self, groups: &[Group], target: f64) -> Vec<bool> {
         let (text, h) = (&self.text, self.step_length(self.fps));
         let mut registers = text.registers();
         let mut seen = vec![Frames::default(); groups.len()];
         let group_at = |at: &[f64]| {
-            let modes = text.modes(h, at, 0.0);
+            let modes = text.modes(h, at, target);
             groups.iter().position(|group| group.modes.contains(&modes))
         };
         // Near rest a ball lies on the floor from which it bounced.
@@ -62,7 +71,7 @@ impl Rule {
                 for (index, value) in at.iter().enumerate() {
                     text.set(&mut registers, index, *value);
                 }
-                text.step(&mut registers, h, 0.0);
+                text.step(&mut registers, h, target);
                 (0..at.len()).for_each(|index| at[index] = text.value(&registers, index));
                 let next = group_at(&at);
                 // A state of no group may be one of this.
@@ -242,6 +251,7 @@ mod tests {
             "v += (target - x)*0.1; v *= 0.8; x += v; if abs(target - x) < 0.01 { x = target; v = 0 }",
             "if target > x { x += (target - x)*0.9 } else { x += (target - x)*0.05 }",
             "x += v*dt; if x > 10 { x = 10 }",
+            "x += (target - x)*0.1; if x > 100 { x = 100 }",
             "v *= 0.9; if v < 0.3 { v = 0.3 } x += v*dt",
             "if v > 0 { v -= 0.2 } else { v += 0.2 } x += v",
             "if target > x { x += 100*dt } else if target < x { x -= 50*dt }",
