@@ -15,7 +15,7 @@ use super::tick_rate::{rate_of_a_log, rate_of_a_step};
 use crate::regular_file;
 use crate::table::{Heading, TableOptions};
 use crate::tools::identify::{
-    Conclusion, Identification, Log, LogError, LogSetting, LoggedBody, identify,
+    Identification, Log, LogError, LogSetting, LoggedBody, identify_reading,
 };
 
 mod findings;
@@ -221,25 +221,13 @@ impl LogArgs {
         LoggedBody { spring, drag, push: thrust / mass, rest: self.rest, v0: self.v0 }
     }
 
-    /// Identifies the log of a body. If no method explains it, a drag below 1 is read as the part of its velocity that
-    /// a body loses in a second.
+    /// Identifies the log of a body, and prints how its numbers were read if that was not as they stand.
     pub(super) fn identify(&self, log: &Log, mass: f64) -> Option<Identification> {
-        let body = self.body(mass);
-        let found = identify(log, &body, log.tick_hz());
-        let is_unknown = found.as_ref().is_none_or(|found| found.conclusion == Conclusion::Unknown);
-        if !(is_unknown && body.drag > 0.0 && body.drag < 1.0) {
-            return found;
+        let (found, words) = identify_reading(log, &self.body(mass), mass);
+        if let Some(words) = words {
+            print_status(&words);
         }
-        let drag = -libm::log1p(-body.drag);
-        let by_part = identify(log, &LoggedBody { drag, ..body.clone() }, log.tick_hz());
-        let by_part = by_part.filter(|found| found.conclusion != Conclusion::Unknown);
-        if by_part.is_some() {
-            print_status(&format!(
-                "--drag {} is the part lost in a second, as in Bullet, cannon-es and p2-es: a drag of {drag} 1/s",
-                body.drag
-            ));
-        }
-        by_part.or(found)
+        found
     }
 }
 

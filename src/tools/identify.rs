@@ -14,6 +14,7 @@ mod forms;
 mod logged;
 mod matching_spring;
 mod motion;
+mod readings;
 mod simplest;
 mod spin;
 mod swing;
@@ -26,6 +27,7 @@ use fit::{Fit, Start, fit};
 pub use logged::{Log, LogError, LogRow, LogSetting, LoggedBody};
 use matching_spring::map_of_log;
 pub(crate) use motion::{SLOW, run};
+pub use readings::identify_reading;
 pub use simplest::SimpleMotion;
 use simplest::{drifting, refusal, simplest};
 pub use spin::identify_spin;
@@ -112,6 +114,10 @@ pub struct Identification {
 
 const MAX_RECOMMENDED: usize = 3;
 
+/// Largest residual from a start at rest that is assumed, in units of that from a fitted start, and of the least one.
+const REST_NEARER: f64 = 10.0;
+const REST_EXACT: f64 = 1e-10;
+
 /// Largest residual of a swing, relative to its amplitude, at which the swing counts as that of the log.
 const NO_SWING: f64 = 0.2;
 
@@ -160,7 +166,11 @@ pub fn identify(log: &Log, body: &LoggedBody, tick_hz: f64) -> Option<Identifica
     if is_open && !log.has_velocities() && body.v0.is_none() {
         let still = LoggedBody { v0: Some(0.0), ..usual };
         let told = identify_with(log, &still, (tick_hz, None), swing);
-        let told = told.filter(|it| it.conclusion == Conclusion::Identified);
+        // Without that start, nothing is farther from the log.
+        let residual = |it: &Identification| it.best.map_or(f64::INFINITY, |best| best.residual);
+        let most = REST_NEARER * found.as_ref().map_or(f64::INFINITY, residual).max(REST_EXACT);
+        let is_near = |it: &Identification| residual(it) <= most;
+        let told = told.filter(|it| it.conclusion == Conclusion::Identified && is_near(it));
         found = told.map(|it| Identification { supposes_start_at_rest: true, ..it }).or(found);
     }
     match found {

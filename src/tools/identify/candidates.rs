@@ -50,7 +50,7 @@ const CHANGED_ENGINE_RARITY: f64 = 8.0;
 /// Twice the log-odds against substeps in a method that a game implements itself.
 const CHANGED_METHOD_RARITY: f64 = 20.0;
 /// Twice the log-odds against a step by hand that no method takes.
-const FORM_RARITY: f64 = 20.0;
+const FORM_RARITY: f64 = 14.0;
 /// Twice the log-odds against a number of substeps that few people set.
 const UNUSUAL_SUBSTEPS_RARITY: f64 = 24.0;
 

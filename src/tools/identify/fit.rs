@@ -21,11 +21,16 @@ const DISPLACEMENT: f64 = 1e-4;
 const PRECISE_IN_SINGLE: f64 = 1.5e-5;
 /// Largest residual that may be rounding in a log of double precision by an engine, which may keep a mass in single
 /// precision.
-const PRECISE_OF_ENGINE: f64 = 1e-5;
+const PRECISE_OF_ENGINE: f64 = 1e-6;
 /// Largest residual that may be rounding in a log of double precision by any other method.
 const PRECISE_IN_DOUBLE: f64 = 1e-8;
 /// Largest residual that is rounding alone.
 const EXACT: f64 = 1e-9;
+/// Largest root mean square of the rounding of printed digits, in units of the last one.
+const HALF_A_DIGIT: f64 = 0.5;
+/// Number of residuals from which a motion foretells the next one, and the largest part that it leaves of it.
+const BEFORE: usize = 4;
+const FORETOLD: f64 = 0.5;
 /// Damping ratio that is none.
 const NO_DAMPING: f64 = 1e-6;
 /// Displacement in a run that starts from nothing, in units of the scale.
@@ -51,8 +56,8 @@ pub(super) struct Fit {
     pub(super) start: [f64; 2],
     /// The run at the log's rows, in units of the scale.
     run: Vec<[f64; 2]>,
-    /// Largest residual that may be rounding alone.
-    precise: f64,
+    /// Largest residuals of each column that may be rounding alone.
+    precise: [f64; 2],
     /// Residuals of the coordinate and, if logged, of the velocity.
     residuals: Vec<Vec<f64>>,
 }
@@ -158,8 +163,8 @@ pub(super) fn fit(
     });
     let worth = |now: &[[f64; 2]]| squares(&residuals(log, now, scale));
     let mut found = by_map.or_else(|| refine(&stepped))?;
-    let precise = precise(log, candidate);
-    let is_far = worth(&found.2) > precise * precise * log.numbers() as f64;
+    let precise = precise(log, candidate, is_spring_known);
+    let is_far = worth(&found.2) > precise[0] * precise[0] * log.numbers() as f64;
     if !is_linear && !is_spring_known && log.has_velocities() && is_far {
         // Runs have folds where a tick is not linear. Single ticks lead past them.
         let single = |body: &LoggedBody, _: [f64; 2]| {
@@ -271,13 +276,16 @@ fn start_of(log: &Log, body: &LoggedBody, tick_s: f64) -> ([f64; 2], f64) {
     }
 }
 
-/// Returns the residual, in units of the log, up to which a run is the logged one.
-fn precise(log: &Log, candidate: Candidate) -> f64 {
-    match (log.is_double(), candidate.method.is_engine()) {
+/// Returns the residuals of each column, in units of the log, up to which a run is the logged one.
+fn precise(log: &Log, candidate: Candidate, is_spring_known: bool) -> [f64; 2] {
+    // A fitted spring takes up the mass.
+    let has_mass = candidate.method.is_engine() && is_spring_known;
+    let precise = match (log.is_double(), has_mass) {
         (false, _) => PRECISE_IN_SINGLE,
         (true, true) => PRECISE_OF_ENGINE,
         (true, false) => PRECISE_IN_DOUBLE,
-    }
+    };
+    log.printed().map(|printed| precise.max(HALF_A_DIGIT * printed))
 }
 
 /// Number of parameters, which are coordinate and velocity at the start, stiffness, damping and rest.
@@ -386,8 +394,8 @@ impl Fit {
     pub(super) fn is_doubtful(&self) -> bool {
         let is_beyond_rounding = self.residual() > EXACT;
         is_beyond_rounding
-            && (self.is_autocorrelated(EXACT)
-                || (self.is_short() && self.residual() > self.precise))
+            && (self.is_autocorrelated([EXACT; 2])
+                || (self.is_short() && self.residual() > self.precise[0]))
     }
 
     /// Whether the residual is autocorrelated and above rounding level, so that it is not noise.
@@ -396,8 +404,8 @@ impl Fit {
     }
 
     /// Whether the residual is larger than `precise`, and autocorrelated or in a few rows.
-    fn is_autocorrelated(&self, precise: f64) -> bool {
-        self.residuals.iter().any(|residuals| {
+    fn is_autocorrelated(&self, precise: [f64; 2]) -> bool {
+        self.residuals.iter().zip(precise).any(|(residuals, precise)| {
             let square = mean_square(residuals);
             let follows = |lag: usize| {
                 let pairs = residuals.iter().zip(&residuals[lag..]);
@@ -410,7 +418,25 @@ impl Fit {
                 residuals.len() >= MIN_ROWS_OF_NOISE && largest > FEW * square.sqrt()
             };
             let lags = 1..=LAGS.min(residuals.len() - 1);
-            square.sqrt() > precise && (lags.into_iter().any(follows) || is_of_few())
+            square.sqrt() > precise
+                && (lags.into_iter().any(follows) || is_of_few() || is_foretold(residuals))
         })
     }
+}
+
+/// Whether residuals follow from those before them, as those of a swing do and noise does not.
+fn is_foretold(residuals: &[f64]) -> bool {
+    if residuals.len() < MIN_ROWS_OF_NOISE + BEFORE {
+        return false;
+    }
+    let right = &residuals[BEFORE..];
+    let before = |lag: usize| residuals[BEFORE - lag..residuals.len() - lag].to_vec();
+    let columns: Vec<Vec<f64>> = (1..=BEFORE).map(before).collect();
+    least_squares(&columns, right).is_some_and(|parts| {
+        let foretold = |row: usize| -> f64 {
+            parts.iter().zip(&columns).map(|(part, column)| part * column[row]).sum()
+        };
+        let left: Vec<f64> = (0..right.len()).map(|row| right[row] - foretold(row)).collect();
+        mean_square(&left) < FORETOLD * FORETOLD * mean_square(right)
+    })
 }

@@ -9,7 +9,7 @@ use crate::sim::own_method;
 const TAKES: &str = "takes stiffness\ntakes damping\ntakes drag\ntakes force\n";
 
 /// Id and lines of each form.
-const FORMS: [(&str, &str); 8] = [
+const FORMS: [(&str, &str); 9] = [
     (
         "uniform-acceleration",
         "let a = force - stiffness * x - (damping + drag) * v
@@ -45,6 +45,21 @@ const FORMS: [(&str, &str); 8] = [
         a = force - stiffness * x - c * v
         v += h / 2.0 * a
         memory.a = a
+        memory.last_h = h",
+    ),
+    (
+        "verlet-carried-old-velocity",
+        "memory last_h = nan
+        memory a = 0.0
+        let c = damping + drag
+        var a = memory.a
+        if memory.last_h != h {
+            a = force - stiffness * x - c * v
+        }
+        x += h * v + h * h / 2.0 * a
+        let after = force - stiffness * x - c * v
+        v += h / 2.0 * (a + after)
+        memory.a = after
         memory.last_h = h",
     ),
     // As semi-implicit Euler whose x is logged a tick before its v.

@@ -1,6 +1,7 @@
 //! Reads a log of one coordinate from text, and describes the body that it records.
 
 mod columns;
+mod printed;
 mod steps;
 mod units;
 
@@ -257,7 +258,7 @@ impl Rows {
         if !is_uneven {
             taken.notes.extend(count_steps(&mut rows, tick_hz));
         }
-        taken.notes.extend(note_on_units(&rows, tick_hz));
+        taken.notes.extend(note_on_units(&mut rows, tick_hz));
         // A frame that came late skips ticks of the clock, but none of the motion.
         let gaps = rows.windows(2).filter(|pair| pair[1].tick > pair[0].tick + 1).count();
         let is_late =

@@ -1,6 +1,7 @@
 //! Counts the steps between the rows of a log whose writer at times made none between two rows, and two after that.
 
-use super::{LogRow, scale_of};
+use super::units::times_of_v;
+use super::{Log, LogRow, scale_of};
 use crate::sim::least_squares;
 
 /// Usual ways in units of that at the mean velocity, and slowest velocity as a share of the largest, of a single step.
@@ -12,6 +13,10 @@ const ROUNDS: usize = 3;
 const ALIKE: f64 = 1e-4;
 /// Least ratio of the residuals of two numbers of steps that tells them apart.
 const CLEAR: f64 = 10.0;
+
+/// Minimum number of rows of which some may skip a tick, and of those for each that skips one without a repeat.
+const MIN_ROWS: usize = 12;
+const FEW: usize = 10;
 
 /// A coordinate and a velocity, in units of the largest of the log.
 type Place = [f64; 2];
@@ -69,6 +74,61 @@ fn count(pairs: &[[Place; 2]], tick: f64) -> Option<Vec<u64>> {
     pairs.iter().map(steps).collect()
 }
 
+/// Largest residual of a linear step in the logs of other readings, as a share of the largest coordinate or velocity.
+const EXACT: f64 = 1e-8;
+const EXACT_IN_SINGLE: f64 = 3e-6;
+/// Ratios of ways to velocities that may be per tick, in units of the tick rate.
+const PER_TICK: std::ops::Range<f64> = 0.5..2.0;
+
+impl Log {
+    /// The rows as places, if they have velocities and each is a tick after the one before.
+    fn places(&self) -> Option<Vec<Place>> {
+        let is_even = self.rows.windows(2).all(|pair| pair[1].tick == pair[0].tick + 1);
+        let place = |row: &LogRow| Some([row.x / self.scale[0], row.v? / self.scale[1]]);
+        self.rows.iter().map(place).collect::<Option<Vec<_>>>().filter(|_| is_even)
+    }
+
+    /// Whether all rows follow from those before them by one linear step.
+    pub(in crate::identify) fn is_of_one_step(&self) -> bool {
+        let Some(places) = self.places() else { return false };
+        let pairs: Vec<[Place; 2]> = places.windows(2).map(|pair| [pair[0], pair[1]]).collect();
+        let off = |step: Step| {
+            pairs.iter().map(|[from, to]| distance(after(&step, *from), *to)).fold(0.0, f64::max)
+        };
+        let most = if self.is_double() { EXACT } else { EXACT_IN_SINGLE };
+        pairs.len() > 3 && fit(&pairs).is_some_and(|step| off(step) <= most)
+    }
+
+    /// Returns a log of these rows, from their first on; `None` if there are too few.
+    fn of_rows(&self, rows: Vec<LogRow>) -> Option<Log> {
+        let first = *rows.first().filter(|_| rows.len() >= Self::MIN_ROWS_WITHOUT_VELOCITY)?;
+        let since_first =
+            |row: LogRow| LogRow { tick: row.tick - first.tick, t_s: row.t_s - first.t_s, ..row };
+        let rows: Vec<LogRow> = rows.into_iter().map(since_first).collect();
+        Some(Log { scale: scale_of(&rows), rows, stepped: None, ..self.clone() })
+    }
+
+    /// Returns the log without its first rows; `None` if too few are left.
+    pub(in crate::identify) fn without_first(&self, rows: usize) -> Option<Log> {
+        self.of_rows(self.rows.get(rows..)?.to_vec())
+    }
+
+    /// Returns the log with the x of the next row beside each v; `None` without velocities.
+    pub(in crate::identify) fn with_x_of_the_next_row(&self) -> Option<Log> {
+        self.places()?;
+        let pairs = self.rows.windows(2);
+        self.of_rows(pairs.map(|pair| LogRow { x: pair[1].x, ..pair[0] }).collect())
+    }
+
+    /// Returns the log with its velocities as ways in a tick, if they may be that.
+    pub(in crate::identify) fn with_velocities_per_tick(&self) -> Option<Log> {
+        let times = times_of_v(&self.rows)? / self.tick_hz;
+        let rows = self.rows.iter().filter(|_| PER_TICK.contains(&times));
+        let per_second = |row: &LogRow| LogRow { v: row.v.map(|v| v * self.tick_hz), ..*row };
+        self.of_rows(rows.map(per_second).collect())
+    }
+}
+
 /// Counts the ticks of rows, if some repeat the row before though the body moves, and leaves those out. Returns a note
 /// on them.
 pub(super) fn count_steps(rows: &mut Vec<LogRow>, tick_hz: f64) -> Option<String> {
@@ -77,10 +137,12 @@ pub(super) fn count_steps(rows: &mut Vec<LogRow>, tick_hz: f64) -> Option<String
         (a.x, a.v) == (b.x, b.v) && a.v.is_some_and(|v| v != 0.0)
     };
     let repeated = rows.windows(2).filter(is_same).count();
-    if repeated == 0 || rows.windows(2).any(|pair| pair[1].tick != pair[0].tick + 1) {
+    let is_even = rows.windows(2).all(|pair| pair[1].tick == pair[0].tick + 1);
+    if rows.len() < MIN_ROWS || !is_even {
         return None;
     }
     let said = match repeated {
+        0 => "no row repeats the row before".to_owned(),
         1 => "1 row repeats the row before".to_owned(),
         several => format!("{several} rows repeat the row before"),
     };
@@ -91,9 +153,12 @@ pub(super) fn count_steps(rows: &mut Vec<LogRow>, tick_hz: f64) -> Option<String
     // A slow body may repeat a row of few digits.
     let none = |steps: &Vec<u64>| steps.iter().filter(|steps| **steps == 0).count();
     let Some(steps) = steps.filter(|steps| none(steps) == repeated) else {
-        return Some(said + ": log each tick once");
+        return (repeated > 0).then(|| said + ": log each tick once");
     };
     let twice = steps.iter().filter(|steps| **steps == 2).count();
+    if repeated == 0 && (twice == 0 || twice * FEW > steps.len()) {
+        return None;
+    }
     let mut tick = rows[0].tick;
     for (row, steps) in rows[1..].iter_mut().zip(&steps) {
         tick += steps;
