@@ -2,14 +2,14 @@
 
 use glam::DVec2;
 
-use super::moment::DrawContext;
+use super::lane::{RaceLane, StageLane};
+use super::letters::fitting;
 use super::sketch::Camera;
 use super::{Align, Picture, captions};
 use crate::look::Framing;
 use crate::look::palette::fade;
 use crate::run::METRICS;
 use crate::run::past::{Sample, SweptRange};
-use crate::run::race::Entrant;
 use crate::sim::number::significant;
 use crate::sim::{Bounces, Stepper};
 
@@ -47,15 +47,15 @@ fn apex(swept: impl Iterator<Item = SweptRange>) -> Option<f64> {
 pub(super) fn draw(
     picture: &mut Picture,
     camera: &Camera,
-    (moment, is_crowded): (&DrawContext<'_>, bool),
-    lane: &Entrant,
+    is_crowded: bool,
+    lane: RaceLane<'_>,
     index: usize,
 ) {
-    let past = moment.studio.past();
+    let (moment, past) = (lane.moment, lane.moment.studio.past());
     let since_s = past.changed_s();
-    let of_lane = apex(moment.history(lane, index).since(since_s).map(|sample| sample.swept));
+    let of_lane = apex(lane.history(index).since(since_s).map(|sample| sample.swept));
     let of_truth = apex(past.truth_curves()[index].since(since_s).map(|sample| sample.swept));
-    let own = &lane.lane.bodies()[index].stepper;
+    let own = &lane.bodies()[index].stepper;
     let bounced = |bounces: &Bounces| {
         let truth = &moment.studio.race().truth().bodies()[index].stepper;
         let floor = floor(&**own);
@@ -67,8 +67,7 @@ pub(super) fn draw(
         None => of_lane.zip(of_truth),
     };
     let Some((lane_m, exact_m)) = heights else { return };
-    let (colour, _) = moment.style(moment.studio.entry(lane));
-    for (height, colour) in [(exact_m, moment.palette.exact), (lane_m, colour)] {
+    for (height, colour) in [(exact_m, moment.palette.exact), (lane_m, lane.colour())] {
         let [x, y] = camera.points(DVec2::new(0.0, height));
         let ends = [[x - APEX, y], [x + APEX, y]];
         picture.pen(camera.rect).dashed(ends, 1.6, colour, [5.0, 3.0]);
@@ -88,9 +87,8 @@ pub(super) fn draw(
     let [x, y] = camera.points(DVec2::new(0.0, lane_m.min(exact_m)));
     let at = [x - APEX - GAP, y + 4.0];
     let room = at[0] - camera.rect.min[0] - GAP;
-    let fits = |words: &String| LETTER * words.chars().count() as f32 <= room;
     let whole = format!("{} m high, {differs}", significant(lane_m, 4));
-    let Some(words) = [whole, differs].into_iter().find(fits) else { return };
+    let Some(words) = fitting([whole, differs], LETTER, room) else { return };
     let label = captions::text(moment.palette, at, Align::Right, 13.0, moment.palette.text, words);
     picture.labels.push(label.strong());
 }
@@ -132,18 +130,19 @@ fn floor(body: &dyn Stepper) -> f64 {
 pub(super) fn strip(
     picture: &mut Picture,
     camera: &Camera,
-    (moment, framing): (&DrawContext<'_>, Framing),
-    (lanes, front): (&[&Entrant], &Entrant),
+    framing: Framing,
+    (lanes, front): (&[RaceLane<'_>], RaceLane<'_>),
     index: usize,
 ) {
+    let (moment, colour) = (front.moment, front.colour());
     let truth = &moment.studio.race().truth().bodies()[index];
     let Framing::Fixed { half_m, .. } = framing else { return };
     if !truth.kind.has_walls {
         return;
     }
     let since_s = moment.studio.past().changed_s();
-    let of = |lane: &Entrant| flights(moment.history(lane, index).since(since_s));
-    let own = &front.lane.bodies()[index].stepper;
+    let of = |lane: RaceLane<'_>| flights(lane.history(index).since(since_s));
+    let own = &front.bodies()[index].stepper;
     let base = floor(&**own);
     let [left, floor] = camera.points(DVec2::new(half_m.x, base));
     let room = (camera.rect.max[0] - 2.0 * ASIDE - left) / PITCH;
@@ -153,10 +152,8 @@ pub(super) fn strip(
     }
     let head = captions::foot_of_verdicts(camera.rect) + NUMBER;
     let top = |height: f64| camera.points(DVec2::new(0.0, base + height))[1].clamp(head, floor);
-    let others = lanes.iter().filter(|lane| lane.id != front.id);
-    let others: Vec<_> =
-        others.map(|lane| (of(lane), moment.style(moment.studio.entry(lane)).0)).collect();
-    let (colour, _) = moment.style(moment.studio.entry(front));
+    let others = lanes.iter().filter(|lane| lane.id() != front.id());
+    let others: Vec<_> = others.map(|lane| (of(*lane), lane.colour())).collect();
     let shown = &own[own.len().saturating_sub(most)..];
     for ((n, height), place) in shown.iter().zip(0_u8..) {
         let x = left + ASIDE + PITCH * f32::from(place);

@@ -1,12 +1,11 @@
 //! Bands of lanes one below the other: the name and the verdict above each body, and a card with the lane's code.
 
-use super::captions::{self, Chip, plate, text};
-use super::moment::DrawContext;
+use super::captions::{self, plate, text};
+use super::lane::{Chip, RaceLane, StageLane};
+use super::letters::width;
 use super::{Align, Label, Picture, Rect, breakpoints, chart};
-use crate::look::palette::{Rgba, fade};
+use crate::look::palette::{Palette, Rgba, fade};
 use crate::measure::Outcome;
-use crate::run::MenuIndex;
-use crate::run::race::Entrant;
 use crate::sim::number::{counted, significant};
 use crate::studio::bare_lines;
 
@@ -51,81 +50,68 @@ pub(super) struct Band {
 impl Band {
     /// Divides a band: the card is at the right, or below the body on a narrow stage.
     pub(super) fn of(band: Rect) -> Self {
-        let [width, height] = [0, 1].map(|axis| band.max[axis] - band.min[axis]);
-        let ruler = (height >= breakpoints::RULER_OF_BAND).then_some(chart::RULER);
-        let mut cell = Rect { min: [band.min[0], band.min[1] + ruler.unwrap_or_default()], ..band };
+        let [width, height] = band.sides();
+        let mut rest = band;
         let card = if width >= breakpoints::CARD_BESIDE {
             let [least, most] = COLUMNS;
-            cell.max[0] -= (COLUMN * width).clamp(least, most);
-            Some(Rect { min: [cell.max[0], band.min[1]], max: band.max })
+            rest.max[0] -= (COLUMN * width).clamp(least, most);
+            Some(Rect { min: [rest.max[0], band.min[1]], max: band.max })
         } else if height >= breakpoints::CARD_BELOW {
-            cell.max[1] -= STRIP;
-            Some(Rect { min: [band.min[0], cell.max[1]], max: band.max })
+            rest.max[1] -= STRIP;
+            Some(Rect { min: [band.min[0], rest.max[1]], max: band.max })
         } else {
             None
         };
-        let ruler =
-            ruler.map(|ruler| Rect { min: band.min, max: [cell.max[0], band.min[1] + ruler] });
+        let (ruler, cell) = chart::under_ruler(rest, height >= breakpoints::RULER_OF_BAND);
         Self { ruler, cell, card }
     }
 }
 
 /// Writes the name of the lane's method at the head of its cell, and the verdict beside it in the words of an eye.
-pub(super) fn head(
-    picture: &mut Picture,
-    cell: Rect,
-    moment: &DrawContext<'_>,
-    entrant: &Entrant,
-    swing_m: Option<f64>,
-) {
+pub(super) fn head(picture: &mut Picture, cell: Rect, lane: RaceLane<'_>, swing_m: Option<f64>) {
     let height = cell.max[1] - cell.min[1];
     if height < breakpoints::SCALE_BAR {
         return;
     }
-    let entry = moment.studio.entry(entrant);
-    let left = captions::left_of(cell);
-    let name = moment.studio.lane_name(entry);
-    let found = verdict(moment, entrant, swing_m);
-    let wide = |[_, letter]: [f32; 2], words: &str| letter * words.chars().count() as f32;
+    let (left, name) = (captions::left_of(cell), lane.name());
+    let found = verdict(lane, swing_m);
+    let wide = |[_, letter]: [f32; 2], words: &str| width(letter, words);
     let words = found.as_ref().map_or("", |(words, _)| words);
     let whole = wide(NAME, &name) + BETWEEN + wide(VERDICT, words);
     let is_low = height < breakpoints::LOW_BAND;
     let size = if is_low || left + whole > cell.max[0] { SMALLER } else { 1.0 };
     let y = cell.min[1] + if is_low { 10.0 } else { 15.0 };
     let beside = left + size * (wide(NAME, &name) + BETWEEN);
-    let named = Some((left, NAME[0], moment.style(entry).0, name));
+    let named = Some((left, NAME[0], lane.colour(), name));
     let judged = found.map(|(words, colour)| (beside, VERDICT[0], colour, words));
     let judged = judged.filter(|_| left + size * whole <= cell.max[0]);
     for (x, type_size, colour, words) in named.into_iter().chain(judged) {
-        let label = text(moment.palette, [x, y], Align::Left, size * type_size, colour, words);
+        let (palette, size) = (lane.moment.palette, size * type_size);
+        let label = text(palette, [x, y], Align::Left, size, colour, words);
         picture.labels.push(label.strong());
     }
 }
 
 /// The halt of a lane's body, or else the verdict with its sign, in its colour.
-fn verdict(
-    moment: &DrawContext<'_>,
-    entrant: &Entrant,
-    swing_m: Option<f64>,
-) -> Option<(String, Rgba)> {
-    let body = &entrant.lane.bodies()[0];
+fn verdict(lane: RaceLane<'_>, swing_m: Option<f64>) -> Option<(String, Rgba)> {
+    let body = &lane.bodies()[0];
     if let Some(halt) = body.halted() {
         let severity = Outcome::of_halt(halt).severity();
-        return Some((halt.fate(), moment.palette.of_severity(severity)));
+        return Some((halt.fate(), lane.moment.palette.of_severity(severity)));
     }
     let unit = body.coordinates().at(0).shown_unit();
-    let Chip { sign, colours, verdict, .. } = Chip::in_words(moment, 0, entrant, |verdict| {
+    let Chip { sign, colours, wordings } = Chip::in_words(lane, 0, |verdict| {
         vec![match swing_m {
             Some(swing_m) => verdict.for_the_eye(swing_m, unit),
             None => verdict.to_string(),
         }]
     })?;
-    Some((format!("{sign} {verdict}"), colours[0]))
+    Some((format!("{sign} {}", wordings[0]), colours[0]))
 }
 
 /// The code of a lane, laid out in its room.
 pub(super) struct Card {
-    entry: MenuIndex,
+    colour: Rgba,
     rect: Rect,
     lines: Vec<String>,
     size: f32,
@@ -135,20 +121,19 @@ pub(super) struct Card {
 
 impl Card {
     /// The card of a lane in this room; `None` if not even a line fits.
-    pub(super) fn of(moment: &DrawContext<'_>, entrant: &Entrant, room: Rect) -> Option<Self> {
-        let studio = moment.studio;
-        let entry = studio.entry(entrant);
+    pub(super) fn of(lane: RaceLane<'_>, room: Rect) -> Option<Self> {
+        let studio = lane.moment.studio;
         let figures = studio.has_chosen_bands().then(|| {
-            let count = studio.deck.evaluations_of_next_tick(entry);
-            let error = moment.history(entrant, 0).peaks().error;
-            let unit = entrant.lane.bodies()[0].coordinates().at(0).shown_unit();
+            let count = studio.deck.evaluations_of_next_tick(lane.entry());
+            let error = lane.history(0).peaks().error;
+            let unit = lane.bodies()[0].coordinates().at(0).shown_unit();
             (counted(count, "evaluation"), error, unit)
         });
         let [width, height] =
             [0, 1].map(|axis| room.size()[axis] as f32 - 2.0 * (AROUND[axis] + PADDING[axis]));
         let has_room = height >= 2.0 * LEADING * LEAST + ROW + BAR;
         let below = if figures.is_some() && has_room { ROW + BAR } else { 0.0 };
-        let code = bare_lines(entrant.spec.method);
+        let code = bare_lines(lane.entrant.spec.method);
         let close: Vec<String> = code.iter().map(|line| closed_up(line)).collect();
         let fitted = SIZES.into_iter().find_map(|size| {
             let letters = (width / (LETTER * size)) as usize;
@@ -178,7 +163,8 @@ impl Card {
             min: [room.min[0] + AROUND[0], middle - half],
             max: [room.max[0] - AROUND[0], middle + half],
         };
-        Some(Self { entry, rect, lines, size, figures: figures.filter(|_| below > 0.0) })
+        let (colour, figures) = (lane.colour(), figures.filter(|_| below > 0.0));
+        Some(Self { colour, rect, lines, size, figures })
     }
 
     /// The middle of a line of code, in points.
@@ -186,10 +172,8 @@ impl Card {
         self.rect.min[1] + PADDING[1] + (line as f32 + 0.5) * LEADING * self.size
     }
 
-    fn draw(&self, picture: &mut Picture, moment: &DrawContext<'_>, stage: Rect) {
-        let palette = moment.palette;
-        let colour = moment.style(self.entry).0;
-        plate(picture, self.rect, colour, stage, palette);
+    fn draw(&self, picture: &mut Picture, palette: &Palette, stage: Rect) {
+        plate(picture, self.rect, self.colour, stage, palette);
         let left = self.rect.min[0] + PADDING[0];
         for (index, line) in self.lines.iter().enumerate() {
             let at = [left, self.y_of(index)];
@@ -201,8 +185,7 @@ impl Card {
         let error_in_words = format!("error {} {unit}", significant(*error, 2));
         let whole = format!("{evaluations} · {error_in_words}");
         let room = self.rect.max[0] - self.rect.min[0] - 2.0 * PADDING[0];
-        let fits = SMALL_LETTER * whole.chars().count() as f32 <= room;
-        let words = if fits { whole } else { error_in_words };
+        let words = if width(SMALL_LETTER, &whole) <= room { whole } else { error_in_words };
         let at = [left, bottom - BAR - 0.45 * ROW];
         picture.labels.push(Label::new(at, Align::Left, SMALL, palette.dim, words));
         let (right, y) = (self.rect.max[0] - PADDING[0], bottom - 0.3 * BAR);
@@ -218,13 +201,13 @@ impl Card {
             let x = x(f32::from(decade) / (high - low) as f32);
             pen.line([x, y - 3.0], [x, y + 3.0], 1.0, fade(palette.dim, 0.6));
         }
-        pen.line([left, y], [x(part), y], 6.0, colour);
+        pen.line([left, y], [x(part), y], 6.0, self.colour);
     }
 }
 
 /// Draws the cards. If two neighbours have the same two lines in two orders, threads join the equal lines.
-pub(super) fn draw(picture: &mut Picture, moment: &DrawContext<'_>, stage: Rect, cards: &[Card]) {
-    cards.iter().for_each(|card| card.draw(picture, moment, stage));
+pub(super) fn draw(picture: &mut Picture, palette: &Palette, stage: Rect, cards: &[Card]) {
+    cards.iter().for_each(|card| card.draw(picture, palette, stage));
     for pair in cards.windows(2) {
         let [upper, lower] = [&pair[0], &pair[1]];
         let ([first, second], [third, fourth]) = (&upper.lines[..], &lower.lines[..]) else {
@@ -235,14 +218,14 @@ pub(super) fn draw(picture: &mut Picture, moment: &DrawContext<'_>, stage: Rect,
             continue;
         }
         let end = |card: &Card, line: usize| {
-            let letters = card.lines[line].chars().count() as f32;
-            [card.rect.min[0] + PADDING[0] + LETTER * card.size * letters + 8.0, card.y_of(line)]
+            let wide = width(LETTER * card.size, &card.lines[line]);
+            [card.rect.min[0] + PADDING[0] + wide + 8.0, card.y_of(line)]
         };
         let room = upper.rect.max[0] - end(upper, 0)[0] - PADDING[0];
         let away = room.clamp(0.0, AWAY);
         for (from, to, away) in [(0, 1, away), (1, 0, away / 2.0)] {
             let thread = thread([end(upper, from), end(lower, to)], away);
-            picture.pen(stage).path(thread, 1.2, fade(moment.palette.text, 0.55));
+            picture.pen(stage).path(thread, 1.2, fade(palette.text, 0.55));
         }
     }
 }

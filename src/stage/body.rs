@@ -2,7 +2,7 @@
 
 use super::coil::{Span, coil, silhouette, strut};
 use super::hull::{self, ShipPose};
-use super::sketch::{Camera, LaneStyle, SOLID};
+use super::sketch::{Camera, LaneStyle};
 use super::{Align, Label, Picture, captions, mass};
 use crate::look::palette::{BLACK, Palette, Rgba, WHITE, fade, is_bright, mix};
 use crate::scene::{Mark, Outline, Thread};
@@ -60,7 +60,7 @@ impl OutlineView<'_> {
         let marks = self.outline.marks.iter().filter(is_still).copied().collect();
         let Outline { t, at, .. } = *self.outline;
         let outline = Outline { marks, t, at, ..Outline::default() };
-        let nothing = LaneStyle { colour: self.palette.chart, dash: SOLID, fill: 0.0 };
+        let nothing = LaneStyle::solid(self.palette.chart, 0.0);
         OutlineView { outline: &outline, ..*self }.draw_below_exact(picture, nothing);
     }
 

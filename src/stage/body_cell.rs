@@ -10,14 +10,15 @@ use super::flags::{Flag, Lost, badges, clear_number, flags};
 use super::framed::BodyView;
 use super::futures::End;
 use super::ghost::Ghost;
+use super::lane::{RaceLane, StageLane};
 use super::moment::DrawContext;
-use super::sketch::{Camera, LaneStyle, SOLID};
+use super::sketch::{Camera, LaneStyle};
 use super::{
     Cell, Picture, Rect, Whose, apex, captions, chart, futures, hull, scale_marks, universe,
 };
 use crate::look::palette::{Rgba, fade};
 use crate::look::{Framing, Look};
-use crate::run::race::{Entrant, LaneBody, Mode};
+use crate::run::race::{LaneBody, Mode};
 use crate::scene::{Mark, Outline};
 use crate::studio::{
     DIGITS, HeldBody, ZoomPan, future_of_lane, futures, shown_state, shows_futures, without_futures,
@@ -51,8 +52,8 @@ pub(super) struct BodyCell<'a> {
     /// The view of the camera, shared with the other bodies on the same stage.
     pub(super) view: &'a BodyView,
     pub(super) camera: Camera,
-    pub(super) lanes: &'a [&'a Entrant],
-    pub(super) front: &'a Entrant,
+    pub(super) lanes: &'a [RaceLane<'a>],
+    pub(super) front: RaceLane<'a>,
 }
 
 /// The results of the lower layers for the layers above them.
@@ -78,10 +79,14 @@ struct Shown {
 
 impl BodyCell<'_> {
     /// Draws four layers: the ground, the lanes behind, the lane in front, and the words.
-    pub(super) fn draw(&self, picture: &mut Picture) {
+    pub(super) fn draw(mut self, picture: &mut Picture) {
+        if self.has_outgrown() {
+            self.camera = universe::with_short_paper(&self.camera);
+        }
         let mut drawn = self.draw_ground(picture);
-        let behind = self.lanes.iter().filter(|lane| !self.is_front(lane));
-        behind.for_each(|lane| self.draw_behind(picture, lane, &mut drawn));
+        for lane in self.lanes.iter().filter(|lane| !self.is_front(**lane)) {
+            self.draw_behind(picture, *lane, &mut drawn);
+        }
         self.draw_front(picture, &mut drawn);
         self.write(picture, &mut drawn);
         picture.cells.push(drawn.cell);
@@ -93,13 +98,13 @@ impl BodyCell<'_> {
         let studio = moment.studio;
         self.ground(picture);
         if self.has_outgrown() {
-            universe::landmarks(picture, (camera, self.room()), moment, (index, self.front));
+            universe::landmarks(picture, (camera, self.room()), (index, self.front));
         }
         let mut ends = Vec::new();
-        let has_selected = self.lanes.iter().any(|lane| lane.id == studio.selected().id);
+        let has_selected = self.lanes.iter().any(StageLane::is_selected);
         if self.shows_futures() && (has_selected || self.is_banded()) {
             let futures = match self.is_banded() {
-                true => future_of_lane(&studio.deck, self.front, index),
+                true => future_of_lane(&studio.deck, self.front.entrant, index),
                 false => futures(&studio.deck, index),
             };
             let on = (camera, self.room());
@@ -110,8 +115,8 @@ impl BodyCell<'_> {
         }
         let cell = Cell {
             rect: camera.rect,
-            lane: self.front.id,
-            entry: studio.entry(self.front),
+            lane: self.front.id(),
+            entry: self.front.entry(),
             body: index,
             zoomed_as: self.view.zoomed_as,
             seen: Vec::new(),
@@ -124,19 +129,17 @@ impl BodyCell<'_> {
     fn draw_trail(
         &self,
         picture: &mut Picture,
-        lane: &Entrant,
+        lane: RaceLane<'_>,
         drawn: &mut Drawn,
     ) -> (Shown, bool) {
         let Self { moment, index, ref camera, .. } = *self;
-        let studio = moment.studio;
-        let body = &lane.lane.bodies()[index];
-        let (coordinates, _) = shown_state(studio, body);
+        let body = &lane.bodies()[index];
+        let (coordinates, _) = shown_state(moment.studio, body);
         let outline = Look::of(body).outline(moment.t, &coordinates);
-        let entry = studio.entry(lane);
-        let (colour, dash) = moment.style(entry);
+        let (entry, (colour, dash)) = (lane.entry(), lane.style());
         let at = camera.points(outline.at);
         let flag = Flag { at, number: entry + 1, colour };
-        drawn.cell.seen.push((Whose::Lane { lane: lane.id, entry }, coordinates));
+        drawn.cell.seen.push((Whose::Lane { lane: lane.id(), entry }, coordinates));
         let is_held = self.held().is_some();
         let lost = self.trail(picture, lane, outline.at, flag).filter(|_| !is_held);
         drawn.lost.extend(lost);
@@ -144,7 +147,7 @@ impl BodyCell<'_> {
         (Shown { outline, flag, style }, !is_held && !self.room().contains(at))
     }
 
-    fn draw_behind(&self, picture: &mut Picture, lane: &Entrant, drawn: &mut Drawn) {
+    fn draw_behind(&self, picture: &mut Picture, lane: RaceLane<'_>, drawn: &mut Drawn) {
         let (Shown { outline, flag, style }, is_beyond) = self.draw_trail(picture, lane, drawn);
         if is_beyond {
             return;
@@ -165,7 +168,7 @@ impl BodyCell<'_> {
             seen.draw_fixed_parts(picture);
             return self.draw_ghost(picture);
         }
-        let look = Look::of(&front.lane.bodies()[index]);
+        let look = Look::of(&front.bodies()[index]);
         let in_hand = self.held().map(|held| look.outline(moment.t, &held.q));
         let shown = self.seen(in_hand.as_ref().unwrap_or(&outline));
         if in_hand.is_some() {
@@ -186,7 +189,7 @@ impl BodyCell<'_> {
             let (studio, entry) = (moment.studio, flag.number - 1);
             // In solo mode, a body has a number only if a key picks its method.
             if studio.mode() == Mode::Race || entry < DIGITS {
-                let before = studio.deck.switched_from(front);
+                let before = studio.deck.switched_from(front.entrant);
                 let before = before.filter(|it| *it < DIGITS && *it != entry);
                 let before = before.map_or(String::new(), |it| format!("{} → ", it + 1));
                 shown.number(picture, format!("{before}{}", entry + 1), flag.colour);
@@ -199,16 +202,17 @@ impl BodyCell<'_> {
     fn draw_hand(&self, picture: &mut Picture) {
         let Self { moment, index, front, ref camera, .. } = *self;
         let (deck, palette) = (&moment.studio.deck, moment.palette);
-        let pulled = deck.pulled().filter(|pulled| pulled.body == index && pulled.lane == front.id);
+        let id = front.id();
+        let pulled = deck.pulled().filter(|pulled| pulled.body == index && pulled.lane == id);
         if let Some(pulled) = pulled {
-            let body = &front.lane.bodies()[index];
+            let body = &front.bodies()[index];
             let handles = Look::of(body).handles(&shown_state(moment.studio, body).0);
             if let Some(handle) = handles.get(pulled.handle) {
                 let ends = [handle.at, pulled.hand].map(|at| camera.points(at));
                 picture.pen(camera.rect).dashed(ends, 2.0, palette.text, [6.0, 4.0]);
             }
         }
-        if let Some(held) = self.held().filter(|held| held.lane == front.id) {
+        if let Some(held) = self.held().filter(|held| held.lane == id) {
             let [handle, hand] = [held.handle, held.hand].map(|at| camera.points(at));
             picture.pen(camera.rect).line(handle, hand, 1.0, palette.text);
         }
@@ -232,16 +236,16 @@ impl BodyCell<'_> {
         self.draw_compared(picture, lift);
         let is_alone = self.lanes.len() == 1;
         let says_beside =
-            is_alone && (studio.mode() == Mode::Solo || self.front.lane.bodies().len() == 1);
+            is_alone && (studio.mode() == Mode::Solo || self.front.bodies().len() == 1);
         let halted = self.lanes.iter().filter(|_| !says_beside).filter_map(|lane| {
-            let halt = lane.lane.bodies()[index].halted()?;
-            Some(((!is_alone).then(|| studio.entry(lane) + 1), halt))
+            let halt = lane.bodies()[index].halted()?;
+            Some(((!is_alone).then(|| lane.entry() + 1), halt))
         });
         captions::halts(picture, camera.rect, halted, self.truth(), palette);
         if self.has_outgrown() {
             let swing_m = ghost.swing_m.unwrap_or(ghost.view.reach_m.x);
             let (on, of_lane) = ((camera, self.room()), (index, self.front));
-            universe::write_distance(picture, on, moment, (view, swing_m), of_lane);
+            universe::write_distance(picture, on, (view, swing_m), of_lane);
         }
     }
 
@@ -265,9 +269,8 @@ impl BodyCell<'_> {
         futures::label_ends(picture, moment, take(&mut drawn.ends), self.room());
         flags(picture, &drawn.flagged, lift, palette, (room, camera.rect, name));
         if Look::of(self.truth()).has_ground() && self.truth().halted().is_none() {
-            apex::draw(picture, camera, (moment, !drawn.lost.is_empty()), self.front, index);
-            let lanes = (self.lanes, self.front);
-            apex::strip(picture, camera, (moment, framing), lanes, index);
+            apex::draw(picture, camera, !drawn.lost.is_empty(), self.front, index);
+            apex::strip(picture, camera, framing, (self.lanes, self.front), index);
         }
     }
 
@@ -317,8 +320,8 @@ impl BodyCell<'_> {
         room
     }
 
-    fn is_front(&self, lane: &Entrant) -> bool {
-        lane.id == self.front.id
+    fn is_front(&self, lane: RaceLane<'_>) -> bool {
+        lane.id() == self.front.id()
     }
 
     /// Whether each lane has a band of its own.
@@ -332,7 +335,7 @@ impl BodyCell<'_> {
     }
 
     /// Whether the body has outgrown the stage, so that landmarks show its scale.
-    pub(super) fn has_outgrown(&self) -> bool {
+    fn has_outgrown(&self) -> bool {
         self.is_wide()
             && self.view.zoomed_as == self.index
             && !self.shows_futures()
@@ -392,25 +395,25 @@ impl BodyCell<'_> {
         // The timeline says it at the check itself.
         if index == 0
             && !moment.studio.display().measure
-            && front.id == deck.selected().id
+            && front.is_selected()
             && let Some(failed) = deck.run().first_failed_check()
         {
             captions::write_failed_check(picture, camera.rect, failed, palette);
         }
         if let Some(beside) = deck.run_beside()
-            && let Some((body, q)) = beside.body(front.id, index)
+            && let Some((body, q)) = beside.body(front.id(), index)
         {
             let name = format!("{:.3} Hz", beside.tick_hz());
             let outline = Look::of(body).outline(moment.t, &q);
             self.draw_beside(picture, lift, (outline, &name, palette.dim));
         }
-        let Some(compared) = deck.compared().filter(|_| front.id == deck.selected().id) else {
-            return;
-        };
+        let Some(compared) = deck.compared().filter(|_| front.is_selected()) else { return };
         if index == 0 {
             captions::write_comparison(picture, camera.rect, compared.lines(), palette);
         }
-        let Some((body, q)) = compared.body(deck.scene(), &front.spec, index) else { return };
+        let Some((body, q)) = compared.body(deck.scene(), &front.entrant.spec, index) else {
+            return;
+        };
         let outline = Look::of(body).outline(moment.t, &q);
         self.draw_beside(picture, lift, (outline, compared.name(), palette.accent));
     }
@@ -418,8 +421,7 @@ impl BodyCell<'_> {
     /// Draws the body of another run, hollow and named.
     fn draw_beside(&self, picture: &mut Picture, lift: f32, of: (Outline, &str, Rgba)) {
         let ((outline, name, colour), camera, palette) = (of, &self.camera, self.moment.palette);
-        let style = LaneStyle { colour, dash: SOLID, fill: 0.0 };
-        self.seen(&outline).draw_behind(picture, style);
+        self.seen(&outline).draw_behind(picture, LaneStyle::solid(colour, 0.0));
         let beside = hull::half_height(&outline, camera).max(lift);
         captions::ghost_name(picture, camera, (outline.at, beside), (name, colour), palette);
     }
@@ -429,13 +431,13 @@ impl BodyCell<'_> {
     fn trail(
         &self,
         picture: &mut Picture,
-        lane: &Entrant,
+        lane: RaceLane<'_>,
         from: DVec2,
         flag: Flag,
     ) -> Option<Lost> {
         let Self { moment, index, view, ref camera, .. } = *self;
         let (framing, is_front) = (view.framing, self.is_front(lane));
-        let history = moment.history(lane, index);
+        let history = lane.history(index);
         let now = Lost::of(flag, camera, self.room(), std::iter::once(from));
         if let Framing::Follow { width_m, wake_s, .. } = framing {
             if is_front {

@@ -2,14 +2,15 @@
 
 use glam::DVec2;
 
+use super::lane::{Chip, RaceLane, StageLane, fates};
+use super::letters::{fitting, width};
 use super::moment::{DrawContext, has_several_coordinates};
 use super::sketch::{Camera, rounded};
 use super::{Align, Label, Picture, Rect, breakpoints};
 use crate::look::Look;
-use crate::look::palette::{Palette, Rgba, STALE, fade};
-use crate::measure::{Outcome, Severity, Verdict};
+use crate::look::palette::{Palette, Rgba, fade};
 use crate::run::Checked;
-use crate::run::race::{Entrant, Halt, LaneBody};
+use crate::run::race::{Halt, LaneBody};
 use crate::scene::Mark;
 use crate::sim::number::significant;
 use crate::studio::Studio;
@@ -56,74 +57,42 @@ pub(super) fn text(
     Label::new(at, align, size, colour, text).on_water(palette)
 }
 
-fn lane_name(studio: &Studio, entrant: &Entrant) -> String {
-    let entry = studio.entry(entrant);
-    format!("{} {}", entry + 1, studio.lane_name(entry))
-}
-
-/// Width (points) of the left column in which [`lane`] names these entrants, on a stage of width `stage`.
-pub(super) fn lanes_width(studio: &Studio, entrants: &[&Entrant], stage: f32) -> f32 {
-    let width =
-        |lane: &&Entrant| LANE_INSET + LETTER * lane_name(studio, lane).chars().count() as f32;
-    let widest = entrants.iter().map(width).fold(LANES.0, f32::max);
+/// Width (points) of the left column in which [`lane`] names these lanes, on a stage of width `stage`.
+pub(super) fn lanes_width(lanes: &[RaceLane<'_>], stage: f32) -> f32 {
+    let width = |lane: &RaceLane<'_>| LANE_INSET + width(LETTER, &lane.numbered_name());
+    let widest = lanes.iter().map(width).fold(LANES.0, f32::max);
     if stage >= breakpoints::LANE_NAMES { widest.min(MAX_FOR_LANES * stage) } else { LANES.1 }
 }
 
 /// Names a lane at the left of its row, and marks the selected one with a bar.
-pub(super) fn lane(picture: &mut Picture, rect: Rect, moment: &DrawContext<'_>, entrant: &Entrant) {
-    let studio = moment.studio;
-    let entry = studio.entry(entrant);
-    let (colour, _) = moment.style(entry);
+pub(super) fn lane(picture: &mut Picture, rect: Rect, lane: RaceLane<'_>) {
     let (left, right) = (rect.min[0] + LANE_INSET, rect.max[0]);
     let middle = (rect.min[1] + rect.max[1]) / 2.0;
-    if entrant.id == studio.selected().id {
-        let (top, bottom) = (rect.min[1] + 4.0, rect.max[1] - 4.0);
-        let x = rect.min[0] + 2.5;
-        picture.pen(rect).line([x, top], [x, bottom.max(top)], 3.0, colour);
-    }
+    lane.mark(picture, rect);
     // With many lanes, a row is lower than a line of the usual size.
-    let size = (0.78 * (rect.max[1] - rect.min[1])).min(12.0);
+    let height = rect.max[1] - rect.min[1];
+    let size = (0.78 * height).min(12.0);
     let mut write = |y, colour, words: String| {
         let at = [left, y];
-        picture.labels.push(text(moment.palette, at, Align::Left, size, colour, words));
+        picture.labels.push(text(lane.moment.palette, at, Align::Left, size, colour, words));
     };
-    let mut name = lane_name(studio, entrant);
     if right - left < breakpoints::CAPTION[0] {
-        write(middle, colour, format!("{}", entry + 1));
+        write(middle, lane.colour(), lane.number());
         return;
     }
     // The extra half point allows for a column exactly as wide as its widest name.
-    let letters = ((right - left + 0.5) / LETTER) as usize;
+    let room = right - left + 0.5;
+    let (mut name, letters) = (lane.numbered_name(), (room / LETTER) as usize);
     if name.chars().count() > letters {
         name = name.chars().take(letters - 1).chain(['…']).collect();
     }
-    // In a scene of several bodies, each body's cell reports its halt.
-    let alone = match entrant.lane.bodies() {
-        [body] => body.halted(),
-        _ => None,
-    };
-    let verdict = studio.viewer.verdict_from_here(&studio.deck, entry);
-    let verdict = verdict.and_then(|verdict| Chip::of(moment, verdict.body, entrant));
-    let verdict = verdict.filter(|_| rect.max[1] - rect.min[1] >= 2.0 * LINE);
-    let is_under = alone.is_some() || verdict.is_some();
-    write(if is_under { middle - LINE / 2.0 } else { middle }, colour, name);
-    if let Some(halt) = alone {
-        write(middle + LINE / 2.0, moment.palette.bad, fate_within(halt, right - left));
-    } else if let Some(Chip { sign, colours, verdict, brief }) = verdict {
-        let mut wordings = [Some(verdict), brief].into_iter().flatten();
-        let words = wordings.find(|words| words.chars().count() + 2 <= letters);
-        let words = words.map_or(sign.to_owned(), |words| format!("{sign} {words}"));
-        write(middle + LINE / 2.0, colours[0], words);
+    let has_room = height >= 2.0 * LINE || lane.lone_halt().is_some();
+    let verdict = lane.verdict_within(LETTER, room).filter(|_| has_room);
+    let up = verdict.as_ref().map_or(0.0, |_| LINE / 2.0);
+    write(middle - up, lane.colour(), name);
+    if let Some((colour, words)) = verdict {
+        write(middle + up, colour, words);
     }
-}
-
-/// The end of a body and its time, or only the end if the width is too small.
-fn fate_within(halt: &Halt, width: f32) -> String {
-    let fate = halt.fate();
-    if LETTER * fate.chars().count() as f32 <= width {
-        return fate;
-    }
-    halt.ending().into()
 }
 
 /// Caption for a body whose exact motion would take too much work.
@@ -143,7 +112,8 @@ pub(super) fn halts<'h>(
         return;
     }
     let of_bodies = bodies.map(|(lane, halt)| match lane {
-        None => fate_within(halt, width - 9.0 - inset(rect)),
+        None => fitting(fates(halt), LETTER, width - 9.0 - inset(rect))
+            .unwrap_or_else(|| halt.ending().into()),
         Some(lane) => format!("{lane} {}", halt.fate()),
     });
     let of_bodies: Vec<String> = of_bodies.collect();
@@ -184,8 +154,8 @@ pub(super) fn name(picture: &mut Picture, rect: Rect, moment: &DrawContext<'_>, 
 /// The room of a body's name at the head of its cell, if the cell has one.
 pub(super) fn name_room(rect: Rect, moment: &DrawContext<'_>, index: usize) -> Option<Rect> {
     let [x, y] = caption_place(rect)?;
-    let letters = moment.studio.scene().bodies[index].name.chars().count();
-    Some(Rect { min: [x, y - 7.0], max: [x + NAME_LETTER * letters as f32, y + 7.0] })
+    let right = x + width(NAME_LETTER, &moment.studio.scene().bodies[index].name);
+    Some(Rect { min: [x, y - 7.0], max: [right, y + 7.0] })
 }
 
 fn capitalised(name: &str) -> String {
@@ -195,25 +165,18 @@ fn capitalised(name: &str) -> String {
 
 /// Writes the expected motion beside a body's name, and the method's fault at the right. If both do not fit, only the
 /// fault.
-pub(super) fn head(
-    picture: &mut Picture,
-    rect: Rect,
-    moment: &DrawContext<'_>,
-    index: usize,
-    entrant: &Entrant,
-) {
-    let Some([x, y]) = caption_place(rect) else { return };
+pub(super) fn head(picture: &mut Picture, rect: Rect, lane: RaceLane<'_>, index: usize) {
+    let (moment, body) = (lane.moment, &lane.bodies()[index]);
+    let name = name_room(rect, moment, index).zip(caption_place(rect));
+    let Some((name, [_, y])) = name else { return };
     // In a low cell, the words would lie over the body.
     if rect.max[1] - rect.min[1] < breakpoints::SCALE_BAR {
         return;
     }
-    let body = &entrant.lane.bodies()[index];
-    let name = moment.studio.scene().bodies[index].name.chars().count();
-    let left = x + NAME_LETTER * name as f32 + 14.0;
+    let left = name.max[0] + 14.0;
     let (words, colour) = beside_name(moment, index, body);
-    let right = left + LETTER * words.chars().count() as f32 + 14.0;
-    let chip =
-        Chip::of(moment, index, entrant).filter(|_| rect.max[1] - rect.min[1] >= breakpoints::CHIP);
+    let right = left + width(LETTER, &words) + 14.0;
+    let chip = Chip::of(lane, index).filter(|_| rect.max[1] - rect.min[1] >= breakpoints::CHIP);
     let room_for = |from: f32| rect.max[0] - 10.0 - from;
     let beside_both = chip.as_ref().filter(|chip| chip.width() <= room_for(right));
     let beside_both = beside_both.and_then(|chip| chip.longest_within(room_for(right)));
@@ -241,26 +204,25 @@ pub(super) fn foot_of_verdicts(rect: Rect) -> f32 {
 pub(super) fn verdicts(
     picture: &mut Picture,
     rect: Rect,
-    moment: &DrawContext<'_>,
     index: usize,
-    (entrants, front): (&[&Entrant], &Entrant),
+    (lanes, front): (&[RaceLane<'_>], RaceLane<'_>),
 ) {
     if foot_of_verdicts(rect) == rect.min[1] {
         return;
     }
+    let moment = front.moment;
     let left = name_room(rect, moment, index).map_or(rect.min[0] + 10.0, |name| name.max[0] + 10.0);
     let (mut right, y) = (rect.max[0] - 10.0, rect.min[1] + 4.0 + CHIP / 2.0);
-    let chip = Chip::of(moment, index, front).and_then(|chip| chip.longest_within(right - left));
+    let chip = Chip::of(front, index).and_then(|chip| chip.longest_within(right - left));
     if let Some(chip) = chip {
         right -= chip.width() + 12.0;
         chip.draw(picture, rect, moment.palette);
     }
-    let others = entrants.iter().filter(|lane| lane.id != front.id);
-    let others = others
-        .filter_map(|lane| Some((moment.studio.entry(lane) + 1, Chip::of(moment, index, lane)?)));
-    let others: Vec<(usize, Chip)> = others.collect();
+    let others = lanes.iter().filter(|lane| lane.id() != front.id());
+    let others = others.filter_map(|lane| Some((lane.number(), Chip::of(*lane, index)?)));
+    let others: Vec<(String, Chip)> = others.collect();
     let all = |words: fn(&Chip) -> &str| {
-        let one = |(number, chip): &(usize, Chip)| {
+        let one = |(number, chip): &(String, Chip)| {
             let words = words(chip);
             let space = if words.is_empty() { "" } else { " " };
             format!("{number} {}{space}{words}", chip.sign)
@@ -268,10 +230,10 @@ pub(super) fn verdicts(
         others.iter().map(one).collect::<Vec<_>>()
     };
     let widths = |all: &[String]| -> Vec<f32> {
-        all.iter().map(|words| LETTER * words.chars().count() as f32 + BETWEEN_LANES).collect()
+        all.iter().map(|words| width(LETTER, words) + BETWEEN_LANES).collect()
     };
     let wordings: [fn(&Chip) -> &str; 3] =
-        [|chip| &chip.verdict, |chip| chip.brief.as_ref().unwrap_or(&chip.verdict), |_| ""];
+        [|chip| &chip.wordings[0], |chip| &chip.wordings[chip.wordings.len() - 1], |_| ""];
     let fits = |all: &Vec<String>| widths(all).iter().sum::<f32>() <= right - left;
     let all = wordings.into_iter().map(all).find(fits).unwrap_or_else(|| all(wordings[2]));
     for (((_, chip), words), width) in others.iter().zip(&all).zip(widths(&all)).rev() {
@@ -315,14 +277,8 @@ fn beside_name(moment: &DrawContext<'_>, index: usize, body: &LaneBody) -> (Stri
 }
 
 /// Writes the speed of a ship on a straight course ahead of its bow, where no other words are.
-pub(super) fn speed(
-    picture: &mut Picture,
-    camera: &Camera,
-    moment: &DrawContext<'_>,
-    index: usize,
-    entrant: &Entrant,
-) {
-    let body = &entrant.lane.bodies()[index];
+pub(super) fn speed(picture: &mut Picture, camera: &Camera, lane: RaceLane<'_>, index: usize) {
+    let (moment, body) = (lane.moment, &lane.bodies()[index]);
     let (q, v) = shown_state(moment.studio, body);
     let outline = Look::of(body).outline(moment.t, &q);
     let bow = outline.marks.iter().find_map(|mark| match mark {
@@ -349,7 +305,7 @@ pub(super) fn speed(
 
 /// Approximate left and right end of a label, in points.
 fn span(label: &Label) -> [f32; 2] {
-    let width = LETTER / 12.5 * label.size * label.text.chars().count() as f32;
+    let width = width(LETTER / 12.5 * label.size, &label.text);
     let left = match label.align {
         Align::Left => label.at[0],
         Align::Centre => label.at[0] - width / 2.0,
@@ -385,7 +341,7 @@ pub(super) fn futures(picture: &mut Picture, rect: Rect, studio: &Studio, palett
     let is_one = studio.deck.offered() < 2 || !studio.bands().is_empty();
     let of = if !is_one { " under each method" } else { "" };
     let words = format!("the next second{of}, a dot a tick");
-    let width = LETTER * words.chars().count() as f32;
+    let width = width(LETTER, &words);
     let middle = (rect.min[0] + rect.max[0]) / 2.0;
     // In a low band it would lie over the ends of the threads.
     let is_low = !studio.bands().is_empty() && rect.max[1] - rect.min[1] < breakpoints::LOW_BAND;
@@ -411,61 +367,15 @@ pub(super) fn foot_of_head(rect: Rect) -> f32 {
     rect.min[1] + head
 }
 
-/// The verdict on the method, on one line.
-pub(super) struct Chip {
-    pub(super) sign: &'static str,
-    /// Colours of the sign and of the rim.
-    pub(super) colours: [Rgba; 2],
-    pub(super) verdict: String,
-    /// A shorter version.
-    brief: Option<String>,
-}
-
 impl Chip {
-    /// The chip of a body under a lane's method, if its verdict is known.
-    fn of(moment: &DrawContext<'_>, index: usize, entrant: &Entrant) -> Option<Self> {
-        Self::in_words(moment, index, entrant, |verdict| verdict.wordings(false))
-    }
-
-    /// Like [`Chip::of`], in the first of these wordings of the verdict, with the second as the shorter version.
-    pub(super) fn in_words(
-        moment: &DrawContext<'_>,
-        index: usize,
-        entrant: &Entrant,
-        wordings: impl FnOnce(&Verdict) -> Vec<String>,
-    ) -> Option<Self> {
-        let studio = moment.studio;
-        let entry = studio.entry(entrant);
-        let halt = entrant.lane.bodies()[index].halted();
-        let verdict = studio.viewer.verdict_from_here(&studio.deck, entry)?;
-        let outcome = halt.map_or(verdict.outcome(), Outcome::of_halt);
-        let severity = outcome.severity();
-        if verdict.body != index || severity == Severity::Unknown {
-            return None;
-        }
-        let is_current = studio.viewer.is_judged_now(&studio.deck, entry);
-        let tone = moment.palette.of_severity(severity);
-        let mut wordings = wordings(verdict).into_iter();
-        let words = halt.map(Halt::fate).or_else(|| wordings.next())?;
-        Some(Self {
-            sign: outcome.sign().glyph(),
-            colours: [
-                if is_current || halt.is_some() { tone } else { fade(tone, STALE) },
-                moment.style(entry).0,
-            ],
-            verdict: words,
-            brief: halt.map(|halt| halt.ending().into()).or_else(|| wordings.next()),
-        })
-    }
-
     fn width(&self) -> f32 {
-        34.0 + VERDICT_LETTER * self.verdict.chars().count() as f32
+        34.0 + width(VERDICT_LETTER, &self.wordings[0])
     }
 
     /// The longest version of the chip that fits into this width.
     fn longest_within(&self, width: f32) -> Option<Self> {
-        let said = [Some(&self.verdict), self.brief.as_ref()].into_iter().flatten();
-        let mut chips = said.map(|verdict| Self { verdict: verdict.clone(), brief: None, ..*self });
+        let mut chips =
+            self.wordings.iter().map(|words| Self { wordings: vec![words.clone()], ..*self });
         chips.find(|chip| chip.width() <= width)
     }
 
@@ -480,7 +390,7 @@ impl Chip {
             picture.labels.push(label.strong());
         };
         write(left + 11.0, 12.5, self.colours[0], self.sign.into());
-        write(left + 28.0, 13.5, palette.text, self.verdict);
+        write(left + 28.0, 13.5, palette.text, self.wordings[0].clone());
         picture.chip = Some(chip);
     }
 }
@@ -509,7 +419,7 @@ pub(super) fn write_failed_check(
     let Some([x, _]) = caption_place(rect) else { return };
     let words = failed.fault();
     let (y, half) = (rect.max[1] - FAILED, 0.5 * CHIP);
-    let right = x + 8.0 + VERDICT_LETTER * words.chars().count() as f32;
+    let right = x + 8.0 + width(VERDICT_LETTER, &words);
     let room = Rect { min: [x - 8.0, y - half], max: [right, y + half] };
     plate(picture, room, palette.bad, rect, palette);
     picture.labels.push(text(palette, [x, y], Align::Left, 13.5, palette.bad, words));
@@ -529,7 +439,7 @@ pub(super) fn ghost_name(
     if max[1] - min[1] < breakpoints::CHIP || !camera.rect.contains([x, y]) {
         return;
     }
-    let width = LETTER * name.chars().count() as f32 + BESIDE_NAME;
+    let width = width(LETTER, name) + BESIDE_NAME;
     let mut sides = [(1.0, Align::Left), (-1.0, Align::Right)];
     if x + beside + width > max[0] {
         sides.reverse();

@@ -43,7 +43,7 @@ static CONTOURS: LazyLock<[[[f32; 2]; 57]; 8]> = LazyLock::new(|| {
 });
 
 fn contours(pen: &mut Pen<'_>, stage: Rect, palette: &Palette) {
-    let [width, height] = [0, 1].map(|axis| stage.max[axis] - stage.min[axis]);
+    let [width, height] = stage.sides();
     let middle = [stage.min[0] + 0.93 * width, stage.min[1] + 0.3 * height];
     for (n, contour) in CONTOURS.iter().enumerate() {
         let points = contour.iter().map(|[x, y]| [middle[0] + width * x, middle[1] + width * y]);
@@ -81,7 +81,7 @@ static WAVES: LazyLock<Vec<Wave>> = LazyLock::new(|| {
 });
 
 fn waves(pen: &mut Pen<'_>, stage: Rect, palette: &Palette) {
-    let size = [0, 1].map(|axis| stage.max[axis] - stage.min[axis]);
+    let size = stage.sides();
     let count = f32::from(USUAL_WAVES) * size[0] * size[1] / AREA_OF_USUAL_WAVES;
     for wave in WAVES.iter().take(count as usize) {
         let [x, y] = [0, 1].map(|axis| stage.min[axis] + size[axis] * wave.at[axis]);
@@ -128,6 +128,13 @@ pub(super) fn mooring(picture: &mut Picture, camera: &Camera, palette: &Palette)
     pen.disc(at, radius, mix(rim, [0, 0, 0, 255], 0.5));
     pen.disc(at, 0.72 * radius, rim);
     pen.line(at, [x + 2.0, y], 0.4 * radius, mix(rim, palette.text, 0.4));
+}
+
+/// Divides a rectangle into the strip of a ruler, if it has one, and the room below.
+pub(super) fn under_ruler(rect: Rect, has_ruler: bool) -> (Option<Rect>, Rect) {
+    let Rect { min, max } = rect;
+    let top = min[1] + if has_ruler { RULER } else { 0.0 };
+    (has_ruler.then_some(Rect { min, max: [max[0], top] }), Rect { min: [min[0], top], max })
 }
 
 /// Draws a ruler along the top of the stage, in the metres of the camera below it.

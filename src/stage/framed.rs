@@ -3,11 +3,11 @@
 use glam::DVec2;
 
 use super::Rect;
+use super::lane::RaceLane;
 use super::moment::{DrawContext, has_several_coordinates};
 use super::outgrown::{Room, in_steps, strayed_m};
 use super::sketch::Camera;
 use crate::look::{Framing, Look, drawn_unit};
-use crate::run::race::Entrant;
 use crate::studio::{Motion, ZoomPan, exact_future, shown_state, shows_futures};
 
 /// Height (points) at the head of a cell that a fixed camera leaves to the caption.
@@ -46,11 +46,7 @@ pub(super) struct BodyView {
 
 /// The views of a scene's bodies that share a stage. The lane in front gets enough room. Chart recorders share one
 /// quay and one zoom; those of similar scales share one scale.
-pub(super) fn on_one_stage(
-    moment: &DrawContext<'_>,
-    mut views: Vec<BodyView>,
-    front: &Entrant,
-) -> Vec<BodyView> {
+pub(super) fn on_one_stage(mut views: Vec<BodyView>, front: RaceLane<'_>) -> Vec<BodyView> {
     let first = views.iter().position(|view| view.recorded_m().is_some());
     let recorded = |view: &BodyView| view.recorded_m().unwrap_or_default();
     let widest_m = views.iter().map(recorded).fold(0.0, f64::max);
@@ -58,11 +54,11 @@ pub(super) fn on_one_stage(
     share(&mut views, &is_alike);
     let before: Vec<f64> = views.iter().map(BodyView::half_m).collect();
     for (index, view) in views.iter_mut().enumerate() {
-        *view = view.widened(moment, front, index);
+        *view = view.widened(front, index);
     }
     share(&mut views, &is_alike);
     for (view, before_m) in views.iter_mut().zip(before) {
-        if moment.studio.display().motion != Motion::Recorded {
+        if front.moment.studio.display().motion != Motion::Recorded {
             view.grown = view.half_m() / before_m;
         }
         if let Framing::Recorder { .. } = view.framing {
@@ -103,13 +99,14 @@ impl BodyView {
 
     /// Makes room for the lane in front: up to some times the true motion, or without limit for a person
     /// who watches.
-    fn widened(mut self, moment: &DrawContext<'_>, lane: &Entrant, body: usize) -> Self {
-        if moment.studio.display().motion != Motion::Recorded {
-            return self.outgrown(moment, lane, body);
+    fn widened(mut self, lane: RaceLane<'_>, body: usize) -> Self {
+        let studio = lane.moment.studio;
+        if studio.display().motion != Motion::Recorded {
+            return self.outgrown(lane, body);
         }
-        let since_s = moment.studio.past().swing_since_s(moment.studio.race().t());
+        let since_s = studio.past().swing_since_s(studio.race().t());
         let furthest = |centre_m: DVec2| {
-            let samples = moment.history(lane, body).since(since_s);
+            let samples = lane.history(body).since(since_s);
             let places = samples.map(|s| (s.at - centre_m).abs()).filter(|at| at.is_finite());
             places.fold(DVec2::ZERO, DVec2::max)
         };
@@ -129,23 +126,23 @@ impl BodyView {
 
     /// Makes room for all of a lane's motion; with reduced motion, in steps. Where futures are shown, the exact one has
     /// room. It is the same at every tick rate, so that the view rests while a person drags the rate.
-    fn outgrown(mut self, moment: &DrawContext<'_>, lane: &Entrant, body: usize) -> Self {
-        let future =
-            shows_futures(moment.studio).then(|| exact_future(&moment.studio.deck, lane, body));
+    fn outgrown(mut self, lane: RaceLane<'_>, body: usize) -> Self {
+        let studio = lane.moment.studio;
+        let future = shows_futures(studio).then(|| exact_future(&studio.deck, lane.entrant, body));
         let future = future.flatten().map_or(Vec::new(), |future| future.moments);
         let ahead_m = |centre_m: DVec2| {
             let places = future.iter().map(|moment| (moment.at - centre_m).abs());
             places.filter(|place| place.is_finite()).fold(DVec2::ZERO, DVec2::max)
         };
-        let is_stepped = moment.studio.display().motion == Motion::Reduced;
+        let is_stepped = studio.display().motion == Motion::Reduced;
         let taken = |room: Room| match is_stepped {
-            true => room.taken_in_steps(moment, lane, body),
-            false => room.reach_m(moment, lane, body),
+            true => room.taken_in_steps(lane, body),
+            false => room.reach_m(lane, body),
         };
         match &mut self.framing {
             Framing::Recorder { half_width_m } => {
                 let base_m = DVec2::new(half_width_m.max(1.1 * self.reach_m.x) / 1.1, f64::MAX);
-                let room = Room { centre_m: DVec2::ZERO, base_m, window_s: moment.paper_s };
+                let room = Room { centre_m: DVec2::ZERO, base_m, window_s: lane.moment.paper_s };
                 self.reach_m.x = taken(room).x.max(ahead_m(DVec2::ZERO).x);
             }
             Framing::Fixed { centre_m, half_m, trail_s } => {
@@ -155,7 +152,7 @@ impl BodyView {
             }
             Framing::Follow { width_m, height_m, .. } => {
                 let wide = if self.turns { width_m.min(*height_m) } else { *width_m };
-                let times = (strayed_m(moment, lane, body) / (STRAYED * wide)).max(1.0);
+                let times = (strayed_m(lane, body) / (STRAYED * wide)).max(1.0);
                 let times = if is_stepped { in_steps(times) } else { times };
                 (*width_m, *height_m) = (times * *width_m, times * *height_m);
             }
@@ -205,8 +202,8 @@ impl DrawContext<'_> {
                 // On a straight course, a place ahead of the middle leaves room for the wake.
                 let ahead = if view.turns { 0.0 } else { 0.1 };
                 let at = [middle[0] + ahead * width as f32, middle[1] + 0.06 * height as f32];
-                let points_per_metre = (width / width_m).min(height / height_m);
-                Camera { centre_m, at, points_per_metre, ..plain }
+                let half_m = DVec2::new(width_m, height_m) / 2.0;
+                Camera { at, ..plain.fitting(centre_m, half_m, [width, height]) }
             }
             Framing::Recorder { half_width_m } => {
                 let half_width_m = view.recorded_m().unwrap_or(half_width_m);
@@ -223,8 +220,7 @@ impl DrawContext<'_> {
                 let half_m = half_m.max(1.05 * view.reach_m);
                 let head = HEAD.min(height / 4.0);
                 let at = [middle[0], middle[1] + head as f32 / 2.0];
-                let points_per_metre = (width / half_m.x).min((height - head) / half_m.y) / 2.0;
-                Camera { centre_m, at, points_per_metre, ..plain }
+                Camera { at, ..plain.fitting(centre_m, half_m, [width, height - head]) }
             }
         }
     }

@@ -31,7 +31,9 @@ mod futures;
 mod ghost;
 mod grasp;
 mod hull;
+mod lane;
 mod layout;
+mod letters;
 mod loop_stage;
 mod mass;
 mod moment;
@@ -79,9 +81,13 @@ impl Rect {
         })
     }
 
+    fn sides(&self) -> [f32; 2] {
+        [0, 1].map(|axis| self.max[axis] - self.min[axis])
+    }
+
     /// Width and height, each at least 1.
     fn size(&self) -> [f64; 2] {
-        [0, 1].map(|axis| f64::from(self.max[axis] - self.min[axis]).max(1.0))
+        self.sides().map(|side| f64::from(side).max(1.0))
     }
 }
 

@@ -5,8 +5,7 @@
 
 use crate::look::palette::{Palette, Rgba};
 use crate::run::MenuIndex;
-use crate::run::past::History;
-use crate::run::race::{Entrant, LaneBody};
+use crate::run::race::LaneBody;
 use crate::studio::{Studio, shown_s};
 
 /// Duration of a chart recorder's paper, relative to the scene: three swings of the harbour's 1 Hz spring. The swings
@@ -46,11 +45,6 @@ impl<'a> DrawContext<'a> {
     pub(super) fn style(&self, entry: MenuIndex) -> (Rgba, [f32; 2]) {
         let lanes = self.studio.entries();
         self.studio.display().theme.lane_style(lanes, &lanes[entry])
-    }
-
-    /// The recent past of a body in a lane.
-    pub(super) fn history(&self, entrant: &Entrant, body: usize) -> &'a History {
-        &self.studio.past().histories(entrant.id)[body]
     }
 }
 

@@ -3,11 +3,10 @@
 
 use glam::DVec2;
 
-use super::moment::DrawContext;
+use super::lane::RaceLane;
 use crate::look::Look;
 use crate::run::Metric;
 use crate::run::past::{History, Sample};
-use crate::run::race::Entrant;
 use crate::scene::Outline;
 
 /// Duration (s) over which the zoom is smoothed, a swing of the harbour's spring, and number of samples in it.
@@ -33,30 +32,26 @@ pub(super) struct Room {
 
 impl Room {
     /// Reach of the stage with the lane, across and up, in metres.
-    pub(super) fn reach_m(&self, moment: &DrawContext<'_>, lane: &Entrant, body: usize) -> DVec2 {
-        let history = moment.history(lane, body);
+    pub(super) fn reach_m(&self, lane: RaceLane<'_>, body: usize) -> DVec2 {
+        let (t, history) = (lane.moment.t, lane.history(body));
         let furthest = |t: f64| self.max_distance_m(history, [t - self.window_s, t]);
         let part_s = EVENED_S / f64::from(PARTS);
         let ln = |reach: DVec2| DVec2::new(libm::log(reach.x), libm::log(reach.y));
         let evened = (0..PARTS).map(|i| {
-            let reach = MARGIN * furthest(moment.t - f64::from(i) * part_s);
+            let reach = MARGIN * furthest(t - f64::from(i) * part_s);
             ln(reach.max(self.base_m) / self.base_m) / f64::from(PARTS)
         });
         let evened: DVec2 = evened.sum();
         let evened = self.base_m * DVec2::new(libm::exp(evened.x), libm::exp(evened.y));
-        evened.max(furthest(moment.t)).max(self.present_bound(moment, lane, body))
+        evened.max(furthest(t)).max(self.present_bound(lane, body))
     }
 
     /// The same reach in steps of a factor of 2. It returns to the base only at the next edit or placement, so the
     /// stage rests between steps.
-    pub(super) fn taken_in_steps(
-        &self,
-        moment: &DrawContext<'_>,
-        lane: &Entrant,
-        body: usize,
-    ) -> DVec2 {
-        let since_s = moment.studio.past().swing_since_s(moment.studio.race().t());
-        let is_alone = lane.lane.bodies()[body].coordinates().len() == 1;
+    pub(super) fn taken_in_steps(&self, lane: RaceLane<'_>, body: usize) -> DVec2 {
+        let studio = lane.moment.studio;
+        let since_s = studio.past().swing_since_s(studio.race().t());
+        let is_alone = lane.bodies()[body].coordinates().len() == 1;
         // Include the range swept between samples. Otherwise the stage would shrink whenever a peak falls between
         // two.
         let reach = |sample: &Sample| {
@@ -67,10 +62,9 @@ impl Room {
             let swept = if is_alone && swept.is_finite() { swept } else { DVec2::ZERO };
             place.abs() + swept
         };
-        let reaches = moment.history(lane, body).since(since_s).map(reach);
+        let reaches = lane.history(body).since(since_s).map(reach);
         let furthest = reaches.filter(|reach| reach.is_finite()).fold(DVec2::ZERO, DVec2::max);
-        let taken =
-            (MARGIN * furthest).max(self.present_bound(moment, lane, body)).max(self.base_m);
+        let taken = (MARGIN * furthest).max(self.present_bound(lane, body)).max(self.base_m);
         let times = taken / self.base_m;
         self.base_m * DVec2::new(in_steps(times.x), in_steps(times.y))
     }
@@ -84,8 +78,8 @@ impl Room {
     }
 
     /// Upper bound of the present distance of a body's parts.
-    fn present_bound(&self, moment: &DrawContext<'_>, lane: &Entrant, body: usize) -> DVec2 {
-        let body = &lane.lane.bodies()[body];
+    fn present_bound(&self, lane: RaceLane<'_>, body: usize) -> DVec2 {
+        let (moment, body) = (lane.moment, &lane.bodies()[body]);
         let look = Look::of(body);
         let race = moment.studio.race();
         let h = race.last_step_s();
@@ -123,8 +117,8 @@ fn parts(outline: &Outline) -> impl Iterator<Item = DVec2> {
 }
 
 /// Largest recent distance (m) of a lane from the truth.
-pub(super) fn strayed_m(moment: &DrawContext<'_>, lane: &Entrant, body: usize) -> f64 {
-    let lately = moment.history(lane, body).since(moment.t - REMEMBERED_S);
+pub(super) fn strayed_m(lane: RaceLane<'_>, body: usize) -> f64 {
+    let lately = lane.history(body).since(lane.moment.t - REMEMBERED_S);
     let errors = lately.map(|sample| sample.metrics[Metric::POSITION_ERROR]);
     errors.filter(|error| error.is_finite()).fold(0.0, f64::max)
 }

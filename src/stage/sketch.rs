@@ -54,6 +54,12 @@ impl Camera {
         }
     }
 
+    /// The same camera, with this place at its point and this half of a view (m) in its room (points).
+    pub(super) fn fitting(self, centre_m: DVec2, half_m: DVec2, [width, height]: [f64; 2]) -> Self {
+        let points_per_metre = (width / half_m.x).min(height / half_m.y) / 2.0;
+        Self { centre_m, points_per_metre, ..self }
+    }
+
     /// The same camera for a stage that has grown by the factor `times`. Bodies shrink too, but ever more slowly.
     pub(super) fn grown(self, times: f64) -> Self {
         /// Least share of its size that a body keeps.
@@ -141,6 +147,13 @@ pub(super) struct LaneStyle {
     pub(super) dash: [f32; 2],
     /// Opacity of its fill when behind.
     pub(super) fill: f32,
+}
+
+impl LaneStyle {
+    /// An unbroken line.
+    pub(super) fn solid(colour: Rgba, fill: f32) -> Self {
+        Self { colour, dash: SOLID, fill }
+    }
 }
 
 /// Draws shapes over those of a picture, clipped to a rectangle. Widths and radii are in points.

@@ -5,13 +5,14 @@ use glam::DVec2;
 
 use super::captions::{self, text};
 use super::framed::BodyView;
+use super::lane::{RaceLane, StageLane};
+use super::letters::width;
 use super::moment::DrawContext;
 use super::sketch::{Camera, PEN, circle};
 use super::{Align, Label, Picture, Rect, scale_marks};
 use crate::look::landmarks::SilhouetteShape::{Disc, Outline, Ring};
 use crate::look::landmarks::{LANDMARKS, Landmark};
 use crate::look::palette::{Palette, Rgba, fade, mix};
-use crate::run::race::Entrant;
 use crate::sim::number::{round, significant, superscript};
 use crate::studio::Motion;
 
@@ -59,12 +60,8 @@ pub(super) fn with_short_paper(camera: &Camera) -> Camera {
 }
 
 /// Both ends (m) of the swing of a lane's body on the paper, within the stage.
-fn swing_m(
-    moment: &DrawContext<'_>,
-    camera: &Camera,
-    (index, lane): (usize, &Entrant),
-) -> [f64; 2] {
-    let since = moment.history(lane, index).since(moment.t - moment.paper_s);
+fn swing_m(camera: &Camera, lane: RaceLane<'_>, index: usize) -> [f64; 2] {
+    let since = lane.history(index).since(lane.moment.t - lane.moment.paper_s);
     let places = since.map(|sample| sample.q).filter(|q| q.is_finite());
     let ends = places.fold([0.0_f64; 2], |[low, high], q| [low.min(q), high.max(q)]);
     // The newest tick may be far beyond the moment that the stage shows.
@@ -141,9 +138,8 @@ impl Row {
         }
         let each = if count == 1 { "" } else { " each" };
         let words = format!("{}, {}{each}", self.words(), landmark.length);
-        let (wide, across) =
-            (NAME_LETTER * words.chars().count() as f32, room.max[0] - room.min[0]);
-        let smaller = (across / wide).min(1.0);
+        let wide = width(NAME_LETTER, &words);
+        let smaller = (room.sides()[0] / wide).min(1.0);
         if smaller < LEAST_SIZE {
             return;
         }
@@ -164,13 +160,12 @@ fn tone(palette: &Palette) -> Rgba {
 pub(super) fn landmarks(
     picture: &mut Picture,
     (camera, room): (&Camera, Rect),
-    moment: &DrawContext<'_>,
-    (index, lane): (usize, &Entrant),
+    (index, lane): (usize, RaceLane<'_>),
 ) {
-    let has_blown_up = lane.lane.bodies()[index].halted().is_some_and(|halt| halt.is_blow_up());
-    let swing_m = swing_m(moment, camera, (index, lane));
+    let has_blown_up = lane.bodies()[index].halted().is_some_and(|halt| halt.is_blow_up());
+    let swing_m = swing_m(camera, lane, index);
     if let Some(row) = Row::of(camera, room, swing_m).filter(|_| !has_blown_up) {
-        row.draw(picture, (camera, room), moment.palette);
+        row.draw(picture, (camera, room), lane.moment.palette);
     }
 }
 
@@ -178,11 +173,10 @@ pub(super) fn landmarks(
 pub(super) fn write_distance(
     picture: &mut Picture,
     (camera, room): (&Camera, Rect),
-    moment: &DrawContext<'_>,
     (view, exact_m): (&BodyView, f64),
-    (index, lane): (usize, &Entrant),
+    (index, lane): (usize, RaceLane<'_>),
 ) {
-    let body = &lane.lane.bodies()[index];
+    let (moment, body) = (lane.moment, &lane.bodies()[index]);
     let what = format!("{} m {}", round(exact_m, 2), moment.studio.scene().bodies[index].name);
     let words = match body.halted().filter(|halt| halt.is_blow_up()) {
         Some(halt) => {
@@ -191,7 +185,7 @@ pub(super) fn write_distance(
             format!("after {} s your {what} is 10{power} m long", round(halt.t, 3))
         }
         None => {
-            let swing_m = swing_m(moment, camera, (index, lane));
+            let swing_m = swing_m(camera, lane, index);
             let wide = match Row::of(camera, room, swing_m) {
                 Some(row) => format!("wider than {}", row.words()),
                 None => format!("{} m wide", significant(swing_m[1] - swing_m[0], 2)),
@@ -200,9 +194,9 @@ pub(super) fn write_distance(
         }
     };
     let palette = moment.palette;
-    let wide = LETTER * words.chars().count() as f32 + 32.0;
+    let wide = width(LETTER, &words) + 32.0;
     // On a narrow stage, the full size would cross one side, or both.
-    let smaller = ((camera.rect.max[0] - camera.rect.min[0]) / wide).min(1.0);
+    let smaller = (camera.rect.sides()[0] / wide).min(1.0);
     if smaller < LEAST_SIZE {
         return;
     }
@@ -215,8 +209,7 @@ pub(super) fn write_distance(
         return;
     }
     let frame = Rect { min: [middle - half, bottom - SENTENCE], max: [middle + half, bottom] };
-    let colour = moment.style(moment.studio.entry(lane)).0;
-    captions::plate(picture, frame, colour, camera.rect, palette);
+    captions::plate(picture, frame, lane.colour(), camera.rect, palette);
     let at = [middle, bottom - SENTENCE / 2.0];
     let size = 13.0 * smaller;
     picture.labels.push(Label::new(at, Align::Centre, size, palette.text, words).strong());

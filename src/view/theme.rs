@@ -60,6 +60,12 @@ impl PanelPalette {
         let (rgba, dash) = self.theme.lane_style(lanes, spec);
         (colour(rgba), dash)
     }
+
+    /// Colour and dash pattern of the loop with this index in the loop lab.
+    pub(super) fn loop_style(&self, index: usize) -> (Color32, [f32; 2]) {
+        let (rgba, dash) = self.theme.loop_style(index);
+        (colour(rgba), dash)
+    }
 }
 
 static DARK: LazyLock<PanelPalette> = LazyLock::new(|| PanelPalette::of(Theme::Dark));

@@ -3,16 +3,17 @@
 
 use std::iter;
 
-use egui::{Color32, Rect, RichText, Sense, Ui, Vec2, vec2};
+use egui::{Rect, RichText, Sense, Ui, Vec2, vec2};
 
 use super::breakpoints;
 use crate::chart::figure::{self, Chart, FigureCurve};
 use crate::chart::legend::{self, Entry};
 use crate::chart::{self, Primitive};
-use crate::loops::loop_lab::{LoopCommand, LoopLab, LoopLane};
+use crate::loops::loop_lab::{LoopCommand, LoopLab};
+use crate::panels::table::TableRow;
 use crate::run::csv_row;
 use crate::studio::{Command, Studio, mark_of};
-use crate::theme::{PanelPalette, colour, palette, strong_font};
+use crate::theme::{PanelPalette, palette, strong_font};
 
 pub(super) mod controls;
 mod counts;
@@ -23,6 +24,8 @@ mod moments;
 mod row;
 pub(super) mod slider;
 pub(super) mod table;
+
+use row::Row;
 
 /// Title of the charts of the loop lab.
 const TITLE: &str = "Moment shown against moment of display";
@@ -45,7 +48,7 @@ pub(super) fn show(ui: &mut Ui, studio: &Studio, room: Vec2, commands: &mut Vec<
 
 fn show_lab(ui: &mut Ui, loops: &LoopLab, room: Vec2, commands: &mut Vec<Command>) {
     let top = ui.cursor().top();
-    let lanes = on_stage(loops, palette(ui));
+    let lanes = on_stage(loops);
     let has_menus =
         room.x >= breakpoints::TITLE_OF_LOOP_LAB || room.y >= breakpoints::TWO_PLOTS_BELOW;
     let header = |ui: &mut Ui| {
@@ -71,12 +74,12 @@ fn show_lab(ui: &mut Ui, loops: &LoopLab, room: Vec2, commands: &mut Vec<Command
     } else {
         ui.horizontal(header)
     };
-    legend::show(ui, &legend_entries(loops, &lanes, palette(ui)));
+    legend::show(ui, &legend_entries(&lanes, palette(ui)));
     if let Some(waiting) = loops.waiting() {
         ui.label(RichText::new(waiting).color(palette(ui).dim));
         return;
     }
-    let has_hitch = lanes.iter().any(|lane| lane.lane.game_time().has_long());
+    let has_hitch = lanes.iter().any(|row| row.lane().game_time().has_long());
     if loops.shows_game_time && !has_hitch {
         ui.label(RichText::new(NO_HITCH).color(palette(ui).dim));
     }
@@ -89,8 +92,8 @@ fn show_lab(ui: &mut Ui, loops: &LoopLab, room: Vec2, commands: &mut Vec<Command
     let (upper, below) = parts(room);
     moments::show(ui, upper, loops, &lanes);
     if let Some([left, right]) = below {
-        counts::show(ui, left, &series(&lanes));
-        errors::show(ui, right, loops, &lanes);
+        counts::show(ui, left, &series(&lanes, palette(ui)));
+        errors::show(ui, right, &lanes);
     }
 }
 
@@ -104,9 +107,9 @@ pub(super) fn layout(
     let Some(loops) = studio.loop_lab() else {
         return Some((live::TITLE, Vec::new(), live::layout(studio, room, palette)?));
     };
-    let lanes = on_stage(loops, palette);
+    let lanes = on_stage(loops);
     if loops.shows_game_time {
-        let entries = legend_entries(loops, &lanes, palette);
+        let entries = legend_entries(&lanes, palette);
         return Some((GAME_TIME, entries, game_time(&lanes, room, palette)));
     }
     let (upper, below) = parts(room);
@@ -114,22 +117,22 @@ pub(super) fn layout(
     let mut all =
         moments.map_or_else(Vec::new, |area| moments::layout(upper, &area, loops, &lanes, palette));
     if let Some([left, right]) = below {
-        all.extend(counts::layout(left, &series(&lanes), palette));
-        all.extend(errors::layout(right, loops, &lanes, palette));
+        all.extend(counts::layout(left, &series(&lanes, palette), palette));
+        all.extend(errors::layout(right, &lanes, palette));
     }
-    Some((TITLE, legend_entries(loops, &lanes, palette), all))
+    Some((TITLE, legend_entries(&lanes, palette), all))
 }
 
 /// Lays out the chart of the loops' game time in a room.
-fn game_time(lanes: &[ShownLane<'_>], room: Rect, palette: &PanelPalette) -> Vec<Primitive> {
-    let curve = |lane: &ShownLane<'_>| {
-        let (colour, dash) = palette.theme.loop_style(lane.index);
-        let points = lane.lane.game_time().points().into();
+fn game_time(lanes: &[Row<'_>], room: Rect, palette: &PanelPalette) -> Vec<Primitive> {
+    let curve = |row: Row<'_>| {
+        let (colour, dash) = palette.theme.loop_style(row.index);
+        let points = row.lane().game_time().points().into();
         FigureCurve { name: String::new(), colour, dash, dots: 0.0, points }
     };
     // The selected lane lies in front.
-    let mut sorted: Vec<&ShownLane<'_>> = lanes.iter().collect();
-    sorted.sort_by_key(|lane| lane.is_selected);
+    let mut sorted = lanes.to_vec();
+    sorted.sort_by_key(TableRow::is_selected);
     let curves = sorted.into_iter().map(curve).collect();
     figure::layout(&Chart::of_game_time(String::new(), palette.theme, curves), room, palette)
 }
@@ -146,36 +149,23 @@ fn parts(room: Rect) -> (Rect, Option<[Rect; 2]>) {
     (upper.with_max_y(upper.bottom() - ABOVE_TWO), Some(halves))
 }
 
-fn series(lanes: &[ShownLane<'_>]) -> Vec<counts::Series> {
-    lanes.iter().map(counts::Series::of_lane).collect()
+fn series(lanes: &[Row<'_>], palette: &PanelPalette) -> Vec<counts::Series> {
+    lanes.iter().map(|row| counts::Series::of_row(row, palette)).collect()
 }
 
-/// A lane on the stage, with the style of its curves.
-struct ShownLane<'a> {
-    index: usize,
-    lane: &'a LoopLane,
-    colour: Color32,
-    dash: [f32; 2],
-    is_selected: bool,
-}
-
-/// Returns the lanes on the stage, from top to bottom.
-fn on_stage<'a>(loops: &'a LoopLab, palette: &PanelPalette) -> Vec<ShownLane<'a>> {
-    let lane = |&index: &usize| {
-        let (rgba, dash) = palette.theme.loop_style(index);
-        let (lane, is_selected) = (&loops.lanes()[index], index == loops.selected());
-        ShownLane { index, lane, colour: colour(rgba), dash, is_selected }
-    };
-    loops.on_stage().iter().map(lane).collect()
+/// Returns the loops on the stage, from top to bottom.
+fn on_stage(loops: &LoopLab) -> Vec<Row<'_>> {
+    loops.on_stage().iter().map(|&index| Row { loops, index }).collect()
 }
 
 /// Returns the legend of the charts.
-fn legend_entries(loops: &LoopLab, lanes: &[ShownLane<'_>], palette: &PanelPalette) -> Vec<Entry> {
-    let entry = |lane: &ShownLane<'_>| {
-        let name = format!("{} {}", mark_of(lane.index), lane.lane.card().name);
-        let off = moments::off_the_plot(loops, lane.lane);
+fn legend_entries(lanes: &[Row<'_>], palette: &PanelPalette) -> Vec<Entry> {
+    let entry = |row: &Row<'_>| {
+        let name = format!("{} {}", mark_of(row.index), row.name());
+        let off = moments::off_the_plot(row.loops, row.lane());
         let name = name + &off.map(|words| format!(" ({words})")).unwrap_or_default();
-        Entry { name, colour: lane.colour, dash: lane.dash, is_front: lane.is_selected }
+        let (colour, dash) = palette.loop_style(row.index);
+        Entry { name, colour, dash, is_front: row.is_selected() }
     };
     let (name, colour, dash) = ("ideal".into(), palette.exact, [1.0, 0.0]);
     let ideal = Entry { name, colour, dash, is_front: false };
@@ -191,8 +181,7 @@ pub(super) fn csv(studio: &Studio) -> Vec<String> {
 }
 
 fn of_lab(loops: &LoopLab) -> Vec<String> {
-    let lanes = loops.on_stage().iter().map(|&index| &loops.lanes()[index]);
-    let frames = lanes.flat_map(|lane| {
+    let frames = on_stage(loops).into_iter().map(|row| row.lane()).flat_map(|lane| {
         lane.frames().iter().enumerate().map(move |(number, frame)| {
             let displayed_ms = frame.displayed_ns as f64 / 1e6;
             csv_row(&[

@@ -5,7 +5,7 @@ use egui::Color32;
 use crate::loops::loop_lab::LoopLab;
 use crate::run::race::Mode;
 use crate::studio::{Studio, digit_of, shown_s};
-use crate::theme::{colour, palette_of};
+use crate::theme::palette_of;
 
 /// Styles of the curves in a plot.
 pub(super) struct SeriesStyles {
@@ -76,8 +76,8 @@ impl SeriesStyles {
         let palette = palette_of(studio.display().theme);
         let series = loops.lanes().iter().enumerate().map(|(index, lane)| {
             let card = lane.card();
-            let (rgba, dash) = palette.theme.loop_style(index);
-            SeriesStyle { id: card.id.clone(), name: card.name.clone(), colour: colour(rgba), dash }
+            let (colour, dash) = palette.loop_style(index);
+            SeriesStyle { id: card.id.clone(), name: card.name.clone(), colour, dash }
         });
         Self {
             series: series.collect(),

@@ -4,6 +4,7 @@
 use egui::{Align2, Color32, FontId, Id, Rect, Response, ScrollArea, Sense, Ui, Vec2, pos2, vec2};
 
 use super::parts::short;
+use super::verdict::VerdictText;
 use super::{focus, keycap};
 use crate::chart;
 use crate::chart::legend::swatch;
@@ -165,6 +166,16 @@ impl<R: TableRow> Column<R> {
             }
         };
         Self::shown("line", 36.0, about, show, move |row| by_index(index(row))).headed("")
+    }
+
+    /// Creates the column of verdicts, which takes the remaining width.
+    pub(super) fn verdict(about: &str, text: impl Fn(&R) -> VerdictText + Copy + 'static) -> Self {
+        let show = move |ui: &mut Ui, row: &R, rect: Rect, _: &mut Vec<Command>| {
+            if ui.is_rect_visible(rect) {
+                text(row).show(ui, rect, row.text(ui));
+            }
+        };
+        Self::shown("Verdict", 0.0, about, show, move |row| text(row).rank.into())
     }
 }
 

@@ -106,17 +106,7 @@ fn verdict<'a>(studio: &Studio) -> Column<Row<'a>> {
     let whose = row::judged_body(studio).map(|body| format!(" ({})", bodies[body].name));
     let head = format!("Verdict{}", whose.unwrap_or_default());
     let has_numbers_of_one = studio.mode() == Mode::Race && bodies.len() > 1;
-    let column = Column::shown(
-        "Verdict",
-        0.0,
-        about,
-        |ui, row: &Row<'a>, rect, _| {
-            if ui.is_rect_visible(rect) {
-                row.verdict_text().show(ui, rect, row.text(ui));
-            }
-        },
-        |row| row.verdict_text().rank.into(),
-    );
+    let column = Column::verdict(about, Row::verdict_text);
     let beside_head = has_numbers_of_one.then(|| format!("{}:", bodies[studio.view().body].name));
     Column { beside_head, ..column.headed(head) }
 }

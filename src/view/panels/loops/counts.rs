@@ -2,9 +2,10 @@
 
 use egui::{Align2, Color32, Rect, Ui, pos2, vec2};
 
-use super::ShownLane;
+use super::row::Row;
 use crate::chart::{self, AxisScale, PlotArea, Primitive, Text};
 use crate::panels::breakpoints;
+use crate::panels::table::TableRow;
 use crate::stage::number::round;
 use crate::theme::{PanelPalette, palette};
 
@@ -36,9 +37,9 @@ impl Series {
         Self { colour, shares_percent: shares_percent(ticks), is_first: true }
     }
 
-    pub(super) fn of_lane(lane: &ShownLane<'_>) -> Self {
-        let ticks = lane.lane.frames().iter().map(|frame| frame.ticks);
-        Self { is_first: lane.is_selected, ..Self::new(lane.colour, ticks) }
+    pub(super) fn of_row(row: &Row<'_>, palette: &PanelPalette) -> Self {
+        let ticks = row.lane().frames().iter().map(|frame| frame.ticks);
+        Self { is_first: row.is_selected(), ..Self::new(palette.loop_style(row.index).0, ticks) }
     }
 }
 

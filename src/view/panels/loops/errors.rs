@@ -2,10 +2,9 @@
 
 use egui::{Align2, Rect, Ui, vec2};
 
-use super::ShownLane;
 use super::counts::{BELOW, LEFT, NAME, TITLE};
+use super::row::Row;
 use crate::chart::{self, AxisScale, PlotArea, Primitive, Text};
-use crate::loops::loop_lab::LoopLab;
 use crate::stage::number::round;
 use crate::theme::{PanelPalette, palette};
 
@@ -25,34 +24,29 @@ pub(super) fn round_up(value: f64) -> f64 {
 }
 
 /// Returns the errors of the last frames of a lane in milliseconds, from the present frame backwards.
-fn errors_ms(loops: &LoopLab, lane: &ShownLane<'_>) -> impl Iterator<Item = f64> {
-    let until = lane.lane.frame_at(loops.now_ns()).map_or(0, |index| index + 1);
-    let frames = lane.lane.frames()[..until].iter().rev().take(FRAMES);
+fn errors_ms(row: &Row<'_>) -> impl Iterator<Item = f64> {
+    let lane = row.lane();
+    let until = lane.frame_at(row.loops.now_ns()).map_or(0, |index| index + 1);
+    let frames = lane.frames()[..until].iter().rev().take(FRAMES);
     frames.map(|frame| frame.animation_error_ms)
 }
 
 /// Returns the largest magnitude of the errors of the last frames, in milliseconds.
-fn largest_ms(loops: &LoopLab, lanes: &[ShownLane<'_>]) -> f64 {
-    let errors = lanes.iter().flat_map(|lane| errors_ms(loops, lane));
-    errors.fold(0.0, |most, error| most.max(error.abs()))
+fn largest_ms(lanes: &[Row<'_>]) -> f64 {
+    lanes.iter().flat_map(errors_ms).fold(0.0, |most, error| most.max(error.abs()))
 }
 
 /// Shows the error of each of the last frames, with a bar for each lane.
-pub(super) fn show(ui: &Ui, room: Rect, loops: &LoopLab, lanes: &[ShownLane<'_>]) {
+pub(super) fn show(ui: &Ui, room: Rect, lanes: &[Row<'_>]) {
     let bars = ui.interact(room, ui.scope_id().with("animation error"), egui::Sense::hover());
-    let largest = round(largest_ms(loops, lanes), 3);
+    let largest = round(largest_ms(lanes), 3);
     let told = format!("Animation error of the last {FRAMES} frames: {largest} ms at most");
     bars.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, &told));
-    chart::paint(&ui.painter_at(room), &layout(room, loops, lanes, palette(ui)));
+    chart::paint(&ui.painter_at(room), &layout(room, lanes, palette(ui)));
 }
 
 /// Lays out the chart of the errors.
-pub(super) fn layout(
-    room: Rect,
-    loops: &LoopLab,
-    lanes: &[ShownLane<'_>],
-    palette: &PanelPalette,
-) -> Vec<Primitive> {
+pub(super) fn layout(room: Rect, lanes: &[Row<'_>], palette: &PanelPalette) -> Vec<Primitive> {
     let [title, name] = match room.width() > 165.0 {
         true => ["Animation error by frame", "ms, by frame from now"],
         false => ["Animation error", "ms, by frame"],
@@ -63,7 +57,7 @@ pub(super) fn layout(
     if !rect.is_positive() || rect.height() < 20.0 {
         return all;
     }
-    let reach = round_up((1.1 * largest_ms(loops, lanes)).max(MIN_MS));
+    let reach = round_up((1.1 * largest_ms(lanes)).max(MIN_MS));
     let area = PlotArea { rect, bounds: [[-(FRAMES as f64), 0.0], [-reach, reach]] };
     all.push(Primitive::Area(rect, palette.plot));
     let along = [0.0, 8.0, 16.0].map(|back| (-back - 0.5, round(-back, 3))).into();
@@ -72,8 +66,8 @@ pub(super) fn layout(
     let frame = rect.width() / FRAMES as f32;
     let width = frame * BARS / lanes.len().max(1) as f32;
     let zero = area.height(0.0);
-    for (i, lane) in lanes.iter().enumerate() {
-        for (back, error) in errors_ms(loops, lane).enumerate() {
+    for (i, row) in lanes.iter().enumerate() {
+        for (back, error) in errors_ms(row).enumerate() {
             let right = rect.right() - frame * back as f32;
             let left = right - frame * (1.0 + BARS) / 2.0 + width * i as f32;
             let end = area.height(error);
@@ -81,7 +75,7 @@ pub(super) fn layout(
                 left..=left + width.max(1.0),
                 end.min(zero - MIN_HEIGHT)..=end.max(zero + MIN_HEIGHT),
             );
-            all.push(Primitive::Area(bar, lane.colour));
+            all.push(Primitive::Area(bar, palette.loop_style(row.index).0));
         }
     }
     let [name, _] = chart::names(&area, room.left(), [name, ""], palette);

@@ -5,10 +5,11 @@ use std::iter;
 
 use egui::{Align2, Color32, Painter, Pos2, Rect, Response, Sense, Stroke, Ui, pos2, vec2};
 
-use super::ShownLane;
 use super::counts::BELOW;
+use super::row::Row;
 use crate::chart::{self, AxisScale, LineStyle, NUMBER, PlotArea, Primitive, ScreenCurve, Text};
 use crate::loops::loop_lab::{LoopFrame, LoopLab, LoopLane};
+use crate::panels::table::TableRow;
 use crate::stage::number::round;
 use crate::theme::{PanelPalette, palette, strong_font};
 
@@ -65,7 +66,7 @@ fn range_ms(length_ms: f64, late_ms: impl Iterator<Item = f64>) -> [f64; 2] {
 }
 
 /// Shows the chart of the moments, and the moments of all lanes under the pointer.
-pub(super) fn show(ui: &Ui, room: Rect, loops: &LoopLab, lanes: &[ShownLane<'_>]) {
+pub(super) fn show(ui: &Ui, room: Rect, loops: &LoopLab, lanes: &[Row<'_>]) {
     let Some(area) = area(room, loops, lanes) else { return };
     let painter = ui.painter_at(room.expand(1.0));
     chart::paint(&painter, &layout(room, &area, loops, lanes, palette(ui)));
@@ -74,11 +75,11 @@ pub(super) fn show(ui: &Ui, room: Rect, loops: &LoopLab, lanes: &[ShownLane<'_>]
 }
 
 /// Returns the area of the moments, or `None` if the room is too small.
-pub(super) fn area(room: Rect, loops: &LoopLab, lanes: &[ShownLane<'_>]) -> Option<PlotArea> {
+pub(super) fn area(room: Rect, loops: &LoopLab, lanes: &[Row<'_>]) -> Option<PlotArea> {
     let rect =
         Rect::from_min_max(room.min + vec2(LEFT, NAMES + 2.0), room.max - vec2(6.0, BELOW + NAMES));
     let length_ms = length_ms(loops);
-    let late = lanes.iter().flat_map(|lane| frames(loops, lane.lane)).map(LoopFrame::latency_ms);
+    let late = lanes.iter().flat_map(|row| frames(loops, row.lane())).map(LoopFrame::latency_ms);
     let bounds = [[-length_ms, 0.0], range_ms(length_ms, late)];
     rect.is_positive().then_some(PlotArea { rect, bounds })
 }
@@ -88,7 +89,7 @@ pub(super) fn layout(
     room: Rect,
     area: &PlotArea,
     loops: &LoopLab,
-    lanes: &[ShownLane<'_>],
+    lanes: &[Row<'_>],
     palette: &PanelPalette,
 ) -> Vec<Primitive> {
     let rect = area.rect;
@@ -114,21 +115,22 @@ pub(super) fn layout(
     let mut inside = vec![Primitive::Line(ideal, Stroke::new(1.4, palette.exact))];
     // The selected lane lies in front.
     let (front, others): (Vec<_>, Vec<_>) =
-        lanes.iter().enumerate().partition(|(_, lane)| lane.is_selected);
-    for (i, lane) in others.into_iter().chain(front) {
-        inside.extend(staircase(loops, area, lane, DOTS[i % 2]));
+        lanes.iter().enumerate().partition(|(_, row)| row.is_selected());
+    for (i, row) in others.into_iter().chain(front) {
+        inside.extend(staircase(area, row, DOTS[i % 2], palette));
     }
     all.push(Primitive::Clip(rect, inside));
     all
 }
 
 fn staircase(
-    loops: &LoopLab,
     area: &PlotArea,
-    lane: &ShownLane<'_>,
+    row: &Row<'_>,
     radius: f32,
+    palette: &PanelPalette,
 ) -> Vec<Primitive> {
-    let frames = frames(loops, lane.lane);
+    let (loops, (colour, dash)) = (row.loops, palette.loop_style(row.index));
+    let frames = frames(loops, row.lane());
     let now_ms = loops.now_ns() as f64 / 1e6;
     let at = |displayed_ns: i64, frame: &LoopFrame| {
         area.at([displayed_ns as f64 / 1e6 - now_ms, frame.shown_ms - now_ms])
@@ -138,12 +140,12 @@ fn staircase(
         let until_ns = frames.get(i + 1).map_or(loops.now_ns(), |next| next.displayed_ns);
         points.extend([at(frame.displayed_ns, frame), at(until_ns, frame)]);
     }
-    let width = if lane.is_selected { 2.4 } else { 1.8 };
-    let style = LineStyle { dash: lane.dash, ..LineStyle::solid(lane.colour, width) };
+    let width = if row.is_selected() { 2.4 } else { 1.8 };
+    let style = LineStyle { dash, ..LineStyle::solid(colour, width) };
     let line = Primitive::Curves(vec![ScreenCurve::new(style, points)]);
     let dot = |frame: &LoopFrame| match at(frame.displayed_ns, frame) {
-        at if radius > DOTS[0] => Primitive::Ring(at, radius, Stroke::new(1.4, lane.colour)),
-        at => Primitive::Dot(at, radius, lane.colour),
+        at if radius > DOTS[0] => Primitive::Ring(at, radius, Stroke::new(1.4, colour)),
+        at => Primitive::Dot(at, radius, colour),
     };
     iter::once(line).chain(frames.iter().map(dot)).collect()
 }
@@ -171,7 +173,7 @@ fn marks(loops: &LoopLab, area: &PlotArea, palette: &PanelPalette) -> Vec<Primit
 fn hover(
     painter: &Painter,
     loops: &LoopLab,
-    lanes: &[ShownLane<'_>],
+    lanes: &[Row<'_>],
     area: &PlotArea,
     response: Response,
     palette: &'static PanelPalette,
@@ -189,16 +191,14 @@ fn hover(
     response.on_hover_ui_at_pointer(|ui| {
         let when = format!("At {:.1} ms the display shows", at_ns as f64 / 1e6);
         ui.label(egui::RichText::new(when).font(strong_font(12.5)));
-        for lane in lanes {
-            let frames = lane.lane.frames();
-            let Some(frame) = lane.lane.frame_at(at_ns).map(|index| &frames[index]) else {
-                continue;
-            };
+        for row in lanes {
+            let frame = row.lane().frame_at(at_ns).map(|index| &row.lane().frames()[index]);
+            let Some(frame) = frame else { continue };
             let late_ms = at_ns as f64 / 1e6 - frame.shown_ms;
             let side = if late_ms < 0.0 { "ahead" } else { "behind" };
-            let name = &lane.lane.card().name;
-            let words = format!("{name}: {:.1} ms, {:.1} ms {side}", frame.shown_ms, late_ms.abs());
-            ui.label(egui::RichText::new(words).color(lane.colour));
+            let words = [frame.shown_ms, late_ms.abs()].map(|ms| format!("{ms:.1} ms"));
+            let words = format!("{}: {}, {} {side}", row.name(), words[0], words[1]);
+            ui.label(egui::RichText::new(words).color(palette.loop_style(row.index).0));
         }
     });
 }

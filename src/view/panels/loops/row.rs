@@ -7,20 +7,30 @@ use crate::measure::Severity;
 use crate::panels::table::TableRow;
 use crate::panels::verdict::VerdictText;
 use crate::studio::Command;
-use crate::theme::{PanelPalette, TYPE, colour, palette, strong_font};
+use crate::theme::{PanelPalette, TYPE, palette, strong_font};
 
+/// A loop of the lab, in the table and in the charts.
+#[derive(Clone, Copy)]
 pub(super) struct Row<'a> {
-    loops: &'a LoopLab,
+    pub(super) loops: &'a LoopLab,
     pub(super) index: usize,
-    pub(super) lane: &'a LoopLane,
-    pub(super) is_on_stage: bool,
-    pub(super) verdict: VerdictText,
 }
 
 impl<'a> Row<'a> {
-    pub(super) fn of(loops: &'a LoopLab, index: usize) -> Self {
-        let lane = &loops.lanes()[index];
-        let verdict = loops.verdict(index);
+    pub(super) fn lane(&self) -> &'a LoopLane {
+        &self.loops.lanes()[self.index]
+    }
+
+    pub(super) fn name(&self) -> &'a str {
+        &self.lane().card().name
+    }
+
+    pub(super) fn is_on_stage(&self) -> bool {
+        self.loops.on_stage().contains(&self.index)
+    }
+
+    pub(super) fn verdict_text(&self) -> VerdictText {
+        let verdict = self.loops.verdict(self.index);
         let rank = match verdict.severity {
             Severity::Fine | Severity::Fair => Some(0.0),
             Severity::Doubtful => Some(1.0),
@@ -28,15 +38,7 @@ impl<'a> Row<'a> {
             Severity::Unknown => None,
         };
         let sign = Some((verdict.severity.sign(), verdict.severity));
-        let verdict = VerdictText { sign, is_current: true, wordings: verdict.wordings(), rank };
-        let is_on_stage = loops.on_stage().contains(&index);
-        Self { loops, index, lane, is_on_stage, verdict }
-    }
-
-    /// Returns the colour and dash of the loop in the plots.
-    pub(super) fn style(&self, palette: &PanelPalette) -> (Color32, [f32; 2]) {
-        let (rgba, dash) = palette.theme.loop_style(self.index);
-        (colour(rgba), dash)
+        VerdictText { sign, is_current: true, wordings: verdict.wordings(), rank }
     }
 
     /// Shows an eye that is open if the loop is on the stage. A click on the eye takes the loop off the stage or brings
@@ -44,14 +46,14 @@ impl<'a> Row<'a> {
     pub(super) fn eye(&self, ui: &Ui, rect: Rect, commands: &mut Vec<Command>) {
         let id = egui::Id::unique(("loop on the stage", self.index));
         let response = ui.interact(rect, id, Sense::click());
-        let name = format!("{} on the stage", self.lane.card().name);
-        let is_on = self.is_on_stage;
+        let name = format!("{} on the stage", self.name());
+        let is_on = self.is_on_stage();
         response
             .widget_info(|| egui::WidgetInfo::selected(egui::Role::CheckBox, true, is_on, &name));
         let is_lit = response.hovered() || response.has_focus();
         let inked = match (is_lit, is_on) {
             (true, _) => palette(ui).accent,
-            (false, true) => self.style(palette(ui)).0,
+            (false, true) => palette(ui).loop_style(self.index).0,
             (false, false) => palette(ui).dim.gamma_multiply(0.55),
         };
         let centre = rect.left_center() + vec2(9.0, 0.0);
@@ -73,7 +75,7 @@ impl<'a> Row<'a> {
 
 impl TableRow for Row<'_> {
     fn spoken(&self) -> String {
-        format!("{} {}, {}", self.index + 1, self.lane.card().name, self.verdict.whole())
+        format!("{} {}, {}", self.index + 1, self.name(), self.verdict_text().whole())
     }
 
     fn is_selected(&self) -> bool {
@@ -81,7 +83,8 @@ impl TableRow for Row<'_> {
     }
 
     fn colours(&self, palette: &PanelPalette) -> [Color32; 2] {
-        [self.style(palette).0, if self.is_on_stage { palette.text } else { palette.dim }]
+        let text = if self.is_on_stage() { palette.text } else { palette.dim };
+        [palette.loop_style(self.index).0, text]
     }
 
     fn command(&self) -> Option<Command> {
@@ -91,7 +94,7 @@ impl TableRow for Row<'_> {
     /// Shows the loop's card and its verdict.
     fn tooltip(&self, ui: &mut Ui) {
         ui.set_max_width(440.0);
-        let card = self.lane.card();
+        let card = self.lane().card();
         ui.label(RichText::new(&card.name).font(strong_font(TYPE)));
         ui.label(&card.formula);
         if !card.constants.is_empty() {
@@ -100,7 +103,7 @@ impl TableRow for Row<'_> {
         ui.label(format!("Odd frames: {}.", card.odd_frames));
         let display = self.loops.chosen_trace().name();
         let tick_hz = self.loops.scene().tick_hz;
-        ui.label(format!("At {tick_hz:.3} Hz, trace {display}: {}.", self.verdict.whole()));
+        ui.label(format!("At {tick_hz:.3} Hz, trace {display}: {}.", self.verdict_text().whole()));
         let advised = self.loops.advised().filter(|advised| advised.index == self.index);
         if let Some(why) = advised.and_then(|advised| advised.why) {
             ui.label(format!("Recommended: {why}."));

@@ -31,7 +31,7 @@ fn table(loops: &LoopLab) -> Table<Row<'_>> {
 }
 
 fn groups(loops: &LoopLab) -> Vec<Vec<Row<'_>>> {
-    loops.listed().into_iter().map(|index| vec![Row::of(loops, index)]).collect()
+    loops.listed().into_iter().map(|index| vec![Row { loops, index }]).collect()
 }
 
 /// The minimum width of the verdict, in points.
@@ -60,31 +60,25 @@ fn columns<'a>(loops: &LoopLab) -> Vec<Column<Row<'a>>> {
         22.0,
         "the loops on the stage; click an eye to bring one on or take it off",
         |ui, row: &Row<'a>, rect, commands| row.eye(ui, rect, commands),
-        |row| SortKey::Number(if row.is_on_stage { 0.0 } else { 1.0 }),
+        |row| SortKey::Number(if row.is_on_stage() { 0.0 } else { 1.0 }),
     );
     let about = "the line of this loop in the plots and on the stage";
     let line = Column::line(about, index, |row: &Row<'a>, palette| {
-        let (strong, dash) = row.style(palette);
-        (if row.is_on_stage { strong } else { strong.gamma_multiply(0.7) }, dash)
+        let (strong, dash) = palette.loop_style(row.index);
+        (if row.is_on_stage() { strong } else { strong.gamma_multiply(0.7) }, dash)
     });
     let name = Column::shown(
         "Loop",
         136.0,
         "the rule of the loop, from the simplest on",
         |ui, row: &Row<'a>, rect, _| {
-            show_words(ui, rect, &row.lane.card().name, row.is_selected(), row.text(ui));
+            show_words(ui, rect, row.name(), row.is_selected(), row.text(ui));
         },
         |row| SortKey::Number(row.index as f64),
     );
     let about = "the effect of this loop on motion at this tick rate on this display; sorts from best to worst";
     let display = loops.chosen_trace().name();
-    let verdict = Column::shown(
-        "Verdict",
-        0.0,
-        about,
-        |ui, row: &Row<'a>, rect, _| row.verdict.show(ui, rect, row.text(ui)),
-        |row| row.verdict.rank.into(),
-    );
+    let verdict = Column::verdict(about, Row::verdict_text);
     let head = format!("Verdict at {:.3} Hz, trace {display}", loops.scene().tick_hz);
     let marks = [key, on_stage.headed(""), line, name, verdict.headed(head)];
     marks.into_iter().chain(METRICS.into_iter().filter_map(metric)).collect()
@@ -93,7 +87,7 @@ fn columns<'a>(loops: &LoopLab) -> Vec<Column<Row<'a>>> {
 /// Returns the column of a metric.
 fn metric<'a>((name, width, priority, id, shown): MetricColumn) -> Option<Column<Row<'a>>> {
     let metric = PACING_METRICS.iter().find(|metric| metric.id == id)?;
-    let value = |row: &Row<'a>| row.lane.report().and_then(metric.measure);
+    let value = |row: &Row<'a>| row.lane().report().and_then(metric.measure);
     let text = move |row: &Row<'a>| Some(shown(value(row)?, metric.unit));
     let is_of_amplitude = metric.unit == Unit::Amplitudes;
     let unit = if is_of_amplitude { ", in percent of the amplitude" } else { "" };
@@ -156,7 +150,7 @@ mod tests {
         let loops = studio.loop_lab().unwrap();
         let ranks = |order| -> Vec<Option<f64>> {
             let rows = table(loops).sorted(groups(loops), order).into_iter().flatten();
-            rows.map(|row| row.verdict.rank).collect()
+            rows.map(|row| row.verdict_text().rank).collect()
         };
         let [best_first, worst_first] =
             [false, true].map(|is_reversed| ranks(Some(("Verdict", is_reversed))));
