@@ -231,62 +231,6 @@ fn semi_implicit_euler_conserves_its_own_energy() {
     }
 }
 
-/// The seconds in which the amplitude doubles, negative where it halves.
-fn doubling_time(id: &str, tick_hz: u32) -> f64 {
-    let (ticks, h) = (1000, 1.0 / f64::from(tick_hz));
-    let growth = amplitude(id, &one_hertz(), h, ticks, 0.3).ln() / f64::from(ticks);
-    std::f64::consts::LN_2 * h / growth
-}
-
-#[test]
-fn the_1_hz_spring_grows_and_decays_as_tabled() {
-    const HOUR: f64 = 3600.0;
-    const DAY: f64 = 24.0 * HOUR;
-    // Seconds, and half a unit of the last digit that the table gives.
-    let table = [
-        ("explicit-euler", 240, 8.43, 0.005),
-        ("explicit-euler", 60, 2.12, 0.005),
-        ("explicit-euler", 30, 1.08, 0.005),
-        ("explicit-euler", 10, 0.42, 0.005),
-        ("explicit-euler", 5, 0.29, 0.005),
-        ("improved-euler", 240, 13.7 * HOUR, 0.05 * HOUR),
-        ("improved-euler", 60, 769.0, 0.5),
-        ("improved-euler", 30, 96.0, 0.5),
-        ("improved-euler", 10, 3.6, 0.05),
-        ("improved-euler", 5, 0.57, 0.005),
-        ("rk4", 60, -14.6 * DAY, 0.05 * DAY),
-        ("rk4", 30, -11.0 * HOUR, 0.5 * HOUR),
-        ("rk4", 10, -171.0, 0.5),
-        ("rk4", 5, -6.2, 0.05),
-    ];
-    for (id, tick_hz, wanted, resolution) in table {
-        let found = doubling_time(id, tick_hz);
-        assert!((found - wanted).abs() <= resolution, "{id} at {tick_hz} Hz: {found} s");
-    }
-    let a_second = amplitude("explicit-euler", &one_hertz(), 1.0 / 60.0, 60, 0.0);
-    assert!((a_second - 1.387).abs() <= 0.0005, "{a_second} in a second");
-}
-
-#[test]
-fn semi_implicit_euler_swings_too_fast_as_tabled() {
-    let table =
-        [(240, 0.003, 5e-4), (60, 0.046, 5e-4), (30, 0.18, 5e-3), (10, 1.7, 0.05), (5, 8.1, 0.05)];
-    for (tick_hz, percent, resolution) in table {
-        let h = 1.0 / f64::from(tick_hz);
-        let spring = one_hertz();
-        let step = |q, v| {
-            let mut state = State { q, v };
-            let mut integrator = fresh(method("semi-implicit-euler").unwrap());
-            integrator.step(&problem(spring.clone()), 0.0, h, &mut state).unwrap();
-            state
-        };
-        // The map turns by θ a step, with 2 cos θ its trace.
-        let angle = libm::acos((step(1.0, 0.0).q + step(0.0, 1.0).v) / 2.0);
-        let found = 100.0 * (angle / (h * spring.angular_frequency()) - 1.0);
-        assert!((found - percent).abs() <= resolution, "{tick_hz} Hz: {found} %");
-    }
-}
-
 #[test]
 fn semi_implicit_euler_holds_the_stiff_spring_at_60_hz_and_loses_it_at_49() {
     let stiff = Spring { stiffness: 10_000.0, ..one_hertz() };

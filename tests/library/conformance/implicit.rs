@@ -141,40 +141,6 @@ fn bdf2_loses_less_energy_than_implicit_euler_for_the_same_work() {
     assert!(bdf2.1 <= euler.1 + solution, "{bdf2:?}, {euler:?}");
 }
 
-#[test]
-fn implicit_euler_halves_the_amplitude_of_the_1_hz_spring_as_tabulated() {
-    for (tick_hz, seconds) in [(240, 8.43), (60, 2.12), (30, 1.08), (10, 0.42), (5, 0.29)] {
-        let h = 1.0 / f64::from(tick_hz);
-        let rate = growth("implicit-euler", std::f64::consts::TAU * h, 0.3).ln() / 2.0;
-        let found = -std::f64::consts::LN_2 * h / rate;
-        assert!((found - seconds).abs() <= 0.005, "{tick_hz} Hz: {found} s");
-    }
-}
-
-#[test]
-fn implicit_midpoint_oscillates_too_slowly_as_tabulated() {
-    let table = [
-        (240, -0.006, 5e-4),
-        (60, -0.091, 5e-4),
-        (30, -0.36, 5e-3),
-        (10, -3.1, 0.05),
-        (5, -10.7, 0.05),
-    ];
-    for (tick_hz, percent, resolution) in table {
-        let z = std::f64::consts::TAU / f64::from(tick_hz);
-        let step = |q, v| {
-            let mut state = State { q, v };
-            let method = method("implicit-midpoint").unwrap();
-            fresh(method).step(&problem(spring(1.0, 0.0)), 0.0, z, &mut state).unwrap();
-            state
-        };
-        // The map rotates by θ per step, and its trace is 2 cos θ.
-        let angle = libm::acos((step(1.0, 0.0).q + step(0.0, 1.0).v) / 2.0);
-        let found = 100.0 * (angle / z - 1.0);
-        assert!((found - percent).abs() <= resolution, "{tick_hz} Hz: {found} %");
-    }
-}
-
 /// Evaluations of a step with two iterations on a system of `components` coordinates. Each iteration evaluates every
 /// stage, and so does each column of the Jacobian; there is one column per stage and component. The order determines
 /// the number of stages of Gauss's collocation. A formula may also contain the force at the start of the step, where

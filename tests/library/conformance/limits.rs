@@ -8,7 +8,7 @@ use super::systems::{fresh, problem, spring};
 
 /// The largest `h ω` at which a method that carries something stays stable in the long run: the Verlets go
 /// on with a force that was taken at a predicted velocity.
-const LONG_RUN: [(&str, [f64; 3]); 3] = [
+pub(crate) const LONG_RUN: [(&str, [f64; 3]); 3] = [
     ("velocity-verlet", [1.810, 1.354, 0.472]),
     ("stormer-verlet", [1.810, 1.354, 0.472]),
     ("adams-bashforth-2", [0.539, 0.765, 1.000]),

@@ -11,7 +11,7 @@ mod cost;
 mod followers;
 mod impacts;
 mod implicit;
-mod limits;
+pub(crate) mod limits;
 mod linearised;
 mod long_run;
 mod memory;
