@@ -118,11 +118,8 @@ A [`System`](sim::System) and a start are enough for [`advise`], [`Race::of`](ru
 [`Scene::of`](scene::Scene::of) and `Window::run`:
 
 ```
-"#
-)]
-#![cfg_attr(feature = "lab", doc = include_str!("../examples/custom_body.rs"))]
-#![cfg_attr(
-    feature = "lab",
+"#,
+    doc = include_str!("../examples/custom_body.rs"),
     doc = r#"
 ```
 
@@ -130,11 +127,8 @@ A custom method is an [`Integrator`](sim::integrators::Integrator) and a card, w
 measures:
 
 ```
-"#
-)]
-#![cfg_attr(feature = "lab", doc = include_str!("../examples/custom_method.rs"))]
-#![cfg_attr(
-    feature = "lab",
+"#,
+    doc = include_str!("../examples/custom_method.rs"),
     doc = r#"
 ```
 
@@ -145,11 +139,8 @@ For many copies of a body see `examples/cloud.rs` and `examples/batch.rs`.
 A race of a scene keeps its hashes until its physics changes:
 
 ```
-"#
-)]
-#![cfg_attr(feature = "lab", doc = include_str!("../examples/ci_hash.rs"))]
-#![cfg_attr(
-    feature = "lab",
+"#,
+    doc = include_str!("../examples/ci_hash.rs"),
     doc = r#"
 ```
 "#
@@ -215,6 +206,7 @@ pub use {
 };
 
 #[cfg(feature = "lab")]
-pub use measure::{advise, try_advise};
-#[cfg(feature = "lab")]
-pub use sim::conformance;
+pub use {
+    measure::{advise, try_advise},
+    sim::conformance,
+};

@@ -77,8 +77,6 @@ mod tick_rate;
 mod visible;
 
 pub use error::Error;
-#[cfg(feature = "window")]
-use play::PlayArgs;
 pub use terminal::{print_error, print_status};
 pub use visible::visible;
 
@@ -118,7 +116,7 @@ pub struct Cli {
     command: Option<Command>,
     #[cfg(feature = "window")]
     #[command(flatten)]
-    play: PlayArgs,
+    play: play::PlayArgs,
 }
 
 /// Maximum number of bytes of an argument, which is more than a path has. Messages quote arguments.
@@ -253,7 +251,7 @@ macro_rules! subcommands {
 
 subcommands! {
     #[cfg(feature = "window")]
-    Play(PlayArgs) => play::run,
+    Play(play::PlayArgs) => play::run,
     Capture(capture::CaptureArgs) => capture::run,
     Report(report::ReportArgs) => report::run,
     Verify(verify::VerifyArgs) => verify::run,

@@ -278,12 +278,6 @@ impl<B> ParameterOf<B> {
     }
 }
 
-/// Returns the parameters in the groups of a scene's keys: the numbers of a list together, and each other by itself.
-#[cfg(feature = "lab")]
-pub fn by_key(parameters: &[Parameter]) -> impl Iterator<Item = &[Parameter]> {
-    parameters.chunk_by(|a, b| a.list.is_some() && a.list == b.list)
-}
-
 /// Writes `values`, in the order of `parameters`, into the fields of `body`. A curve uses all remaining values.
 pub(super) fn write<B>(body: &mut B, parameters: &[ParameterOf<B>], values: &[f64]) {
     let left = parameters.iter().fold(values, |values, parameter| parameter.write(body, values));

@@ -49,7 +49,7 @@ pub use super::net_plan::{
     Grid, Lists, MAX_NODES, MAX_SPRINGS, NetFault, NetLayout, NetPart, NetPlan, Pin, PlannedSpring,
 };
 pub use super::parameter::{
-    Fault, MAX_POINTS, MAX_VALUE, Parameter, ParameterOf, Range, TakesEffect, Text, by_key,
+    Fault, MAX_POINTS, MAX_VALUE, Parameter, ParameterOf, Range, TakesEffect, Text,
 };
 pub use regatta_lines::Curve;
 
@@ -73,6 +73,11 @@ pub static BODIES: LazyLock<Vec<Arc<Kind>>> = LazyLock::new(|| {
 /// are not in the table.
 pub fn kind(id: &str) -> Option<&'static Arc<Kind>> {
     BODIES.iter().find(|kind| kind.id == id)
+}
+
+/// Returns the parameters in the groups of a scene's keys: the numbers of a list together, and each other by itself.
+pub fn by_key(parameters: &[Parameter]) -> impl Iterator<Item = &[Parameter]> {
+    parameters.chunk_by(|a, b| a.list.is_some() && a.list == b.list)
 }
 
 /// Returns the reason why `method` does not step a body of `kind` with these parameter values; `None` if it does. The
