@@ -139,13 +139,9 @@ impl Row {
         let each = if count == 1 { "" } else { " each" };
         let words = format!("{}, {}{each}", self.words(), landmark.length);
         let wide = width(NAME_LETTER, &words);
-        let smaller = (room.sides()[0] / wide).min(1.0);
-        if smaller < LEAST_SIZE {
-            return;
-        }
-        let half = smaller * wide / 2.0;
         let middle = left + count as f32 * length / 2.0;
-        let at = [middle.min(room.max[0] - half).max(room.min[0] + half), below + NAME];
+        let Some((smaller, _, middle)) = fitted(room, wide, middle) else { return };
+        let at = [middle, below + NAME];
         let label = text(palette, at, Align::Centre, 12.0 * smaller, palette.dim, words);
         picture.labels.push(label);
     }
@@ -195,14 +191,8 @@ pub(super) fn write_distance(
     };
     let palette = moment.palette;
     let wide = width(LETTER, &words) + 32.0;
-    // On a narrow stage, the full size would cross one side, or both.
-    let smaller = (camera.rect.sides()[0] / wide).min(1.0);
-    if smaller < LEAST_SIZE {
-        return;
-    }
-    let half = smaller * wide / 2.0;
-    let [least, most] = [camera.rect.min[0] + half, camera.rect.max[0] - half];
-    let middle = camera.points(DVec2::ZERO)[0].max(least).min(most);
+    let middle = camera.points(DVec2::ZERO)[0];
+    let Some((smaller, half, middle)) = fitted(camera.rect, wide, middle) else { return };
     let bottom = camera.rect.max[1] - FEET[2];
     // In a low cell the sentence would cover the body.
     if bottom - SENTENCE < camera.at[1] + PEN * camera.block {
@@ -213,6 +203,15 @@ pub(super) fn write_distance(
     let at = [middle, bottom - SENTENCE / 2.0];
     let size = 13.0 * smaller;
     picture.labels.push(Label::new(at, Align::Centre, size, palette.text, words).strong());
+}
+
+/// The size of words of this width, relative to the usual one, half their width then, and the middle nearest to this
+/// one at which they cross no side; `None` if they would be too small to read.
+fn fitted(room: Rect, wide: f32, middle: f32) -> Option<(f32, f32, f32)> {
+    let smaller = (room.sides()[0] / wide).min(1.0);
+    let half = smaller * wide / 2.0;
+    let middle = middle.min(room.max[0] - half).max(room.min[0] + half);
+    (smaller >= LEAST_SIZE).then_some((smaller, half, middle))
 }
 
 /// A number of at least two, in words if it is small.

@@ -351,8 +351,8 @@ impl TableRow for Row<'_> {
         false
     }
 
-    fn colours(&self, palette: &PanelPalette) -> [Color32; 2] {
-        [palette.accent, palette.text]
+    fn style(&self, palette: &PanelPalette) -> (Color32, [f32; 2]) {
+        (palette.accent, [1.0, 0.0])
     }
 
     fn command(&self) -> Option<Command> {

@@ -58,9 +58,7 @@ pub(super) fn show(ui: &mut Ui, studio: &Studio, room: Vec2, commands: &mut Vec<
 /// Returns the columns of the table. The longest bar shows `most` evaluations.
 fn columns<'a>(most: u64, has_times: bool) -> Vec<Column<Row<'a>>> {
     let about = "the line of this method in the plots and on the stage";
-    let style =
-        |row: &Row<'a>, palette: &PanelPalette| palette.style(row.studio.entries(), &row.spec);
-    let line = Column::line(about, |row: &Row<'a>| Some(row.entry), style);
+    let line = Column::line(about, |row: &Row<'a>| Some(row.entry));
     let method = Column::shown(
         "method",
         0.0,
@@ -88,7 +86,7 @@ fn columns<'a>(most: u64, has_times: bool) -> Vec<Column<Row<'a>>> {
             let part = row.evaluations as f32 / most as f32;
             let size = vec2(part * rect.width(), rect.height() - 12.0);
             let bar = Rect::from_min_size(rect.min + vec2(0.0, 6.0), size);
-            ui.painter().rect_filled(bar, 2.0, row.colours(palette(ui))[0]);
+            ui.painter().rect_filled(bar, 2.0, row.style(palette(ui)).0);
         },
         |row| SortKey::Number(row.evaluations as f64),
     );
@@ -150,8 +148,8 @@ impl TableRow for Row<'_> {
         self.entry == self.studio.active()
     }
 
-    fn colours(&self, palette: &PanelPalette) -> [Color32; 2] {
-        [palette.style(self.studio.entries(), &self.spec).0, palette.text]
+    fn style(&self, palette: &PanelPalette) -> (Color32, [f32; 2]) {
+        palette.style(self.studio.entries(), &self.spec)
     }
 
     fn command(&self) -> Option<Command> {

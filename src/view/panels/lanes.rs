@@ -118,9 +118,12 @@ impl TableRow for Row<'_> {
         self.is_selected
     }
 
-    fn colours(&self, palette: &PanelPalette) -> [Color32; 2] {
-        let text = if self.entrant.is_some() { palette.text } else { palette.dim };
-        [palette.style(self.studio.entries(), self.spec).0, text]
+    fn style(&self, palette: &PanelPalette) -> (Color32, [f32; 2]) {
+        palette.style(self.studio.entries(), self.spec)
+    }
+
+    fn is_dim(&self) -> bool {
+        self.entrant.is_none()
     }
 
     fn command(&self) -> Option<Command> {

@@ -164,7 +164,7 @@ fn legend_entries(lanes: &[Row<'_>], palette: &PanelPalette) -> Vec<Entry> {
         let name = format!("{} {}", mark_of(row.index), row.name());
         let off = moments::off_the_plot(row.loops, row.lane());
         let name = name + &off.map(|words| format!(" ({words})")).unwrap_or_default();
-        let (colour, dash) = palette.loop_style(row.index);
+        let (colour, dash) = row.style(palette);
         Entry { name, colour, dash, is_front: row.is_selected() }
     };
     let (name, colour, dash) = ("ideal".into(), palette.exact, [1.0, 0.0]);

@@ -32,12 +32,17 @@ pub(super) trait TableRow {
     /// Whether the keys and the stage refer to this row.
     fn is_selected(&self) -> bool;
 
-    /// Returns the colour of the bar that marks the row if it is selected, and the colour of the row's numbers.
-    fn colours(&self, palette: &PanelPalette) -> [Color32; 2];
+    /// Returns the colour and dash of the row's line. A bar of this colour marks the selected row.
+    fn style(&self, palette: &PanelPalette) -> (Color32, [f32; 2]);
+
+    /// Whether the row is about something that is neither in the plots nor on the stage.
+    fn is_dim(&self) -> bool {
+        false
+    }
 
     /// Returns the colour of the row's numbers.
     fn text(&self, ui: &Ui) -> Color32 {
-        self.colours(palette(ui))[1]
+        if self.is_dim() { palette(ui).dim } else { palette(ui).text }
     }
 
     /// Returns the command that a click on the row issues, or `None` if a click does nothing.
@@ -153,14 +158,11 @@ impl<R: TableRow> Column<R> {
 
     /// Creates the column of lines, each with the colour and dash of its row in the plots. A row without an index has
     /// no line.
-    pub(super) fn line(
-        about: &str,
-        index: impl Fn(&R) -> Option<usize> + Copy + 'static,
-        style: impl Fn(&R, &PanelPalette) -> (Color32, [f32; 2]) + 'static,
-    ) -> Self {
+    pub(super) fn line(about: &str, index: impl Fn(&R) -> Option<usize> + Copy + 'static) -> Self {
         let show = move |ui: &mut Ui, row: &R, rect: Rect, _: &mut Vec<Command>| {
             if index(row).is_some() {
-                let (colour, dash) = style(row, palette(ui));
+                let (colour, dash) = row.style(palette(ui));
+                let colour = if row.is_dim() { colour.gamma_multiply(0.7) } else { colour };
                 let line = swatch(rect.left_center(), rect.width() - 4.0, dash, colour);
                 chart::paint(ui.painter(), &line);
             }
@@ -346,7 +348,7 @@ impl<R: TableRow> Table<R> {
             let name = row.spoken() + &heard.collect::<String>();
             egui::WidgetInfo::selected(egui::Role::Button, true, is_selected, name)
         });
-        let [own, text] = row.colours(palette(ui));
+        let ((own, _), text) = (row.style(palette(ui)), row.text(ui));
         if is_selected || command.is_some() && response.hovered() {
             let fill = palette(ui).raised.gamma_multiply(if is_selected { 1.0 } else { 0.6 });
             ui.painter().rect_filled(rect, 3.0, fill);
@@ -435,8 +437,8 @@ mod tests {
             false
         }
 
-        fn colours(&self, palette: &PanelPalette) -> [Color32; 2] {
-            [palette.text; 2]
+        fn style(&self, palette: &PanelPalette) -> (Color32, [f32; 2]) {
+            (palette.text, [1.0, 0.0])
         }
 
         fn command(&self) -> Option<Command> {

@@ -6,7 +6,7 @@ use egui::{
 
 use super::loops::controls;
 use super::{breakpoints, rate_scale};
-use crate::loops::loop_lab::LoopCommand;
+use crate::loops::loop_lab::{LoopCommand, SLOWNESS};
 use crate::run::race::Mode;
 use crate::scene::{SCENES, Scene};
 use crate::studio::{
@@ -30,10 +30,7 @@ pub(super) fn show(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) {
         transport(ui, studio, width, commands);
         if width >= breakpoints::MENUS {
             word(ui, width, "speed");
-            match studio.loop_lab() {
-                Some(loops) => controls::speed_menu(ui, loops, commands),
-                None => speed_menu(ui, studio, commands),
-            }
+            speed_menu(ui, studio, commands);
             word(ui, width, "tick rate");
             tick_rate(ui, studio, commands);
         }
@@ -220,26 +217,36 @@ fn part(ui: &mut Ui, name: &str, margin: f32, about: &str, is_chosen: bool) -> b
 }
 
 fn speed_menu(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) {
-    let percent = studio.clock().speed_percent();
-    let text = RichText::new(format!("{}×", multiple(percent)));
-    let menu = ComboBox::from_id_salt("speed").selected_text(text).width(54.0).height(400.0);
-    let response = menu.show_ui(ui, |ui| {
-        for rung in SPEED_LADDER {
-            let text = format!("{}× real time", multiple(rung));
-            if ui.selectable_label(rung == percent, text).clicked() {
-                commands.push(Command::Run(RunCommand::SpeedPercent(rung)));
+    let (chosen, all, name) = match studio.loop_lab() {
+        Some(loops) => (loops.slowness(), &SLOWNESS[..], controls::speed as fn(u32) -> String),
+        None => (studio.clock().speed_percent(), &SPEED_LADDER[..], multiple as _),
+    };
+    let menu = ComboBox::from_id_salt("speed").selected_text(name(chosen)).width(54.0);
+    let response = menu.height(400.0).show_ui(ui, |ui| {
+        for &speed in all {
+            let text = format!("{} real time", name(speed));
+            if ui.selectable_label(speed == chosen, text).clicked() {
+                commands.push(match studio.loop_lab() {
+                    Some(_) => Command::Loop(LoopCommand::Slowness(speed)),
+                    None => Command::Run(RunCommand::SpeedPercent(speed)),
+                });
             }
         }
     });
-    response.response.on_hover_text("simulated seconds per second (- and =)");
+    response.response.on_hover_text(match studio.loop_lab() {
+        Some(_) => {
+            "playback speed of the frames (- and =); if faster, a monitor adds its own judder"
+        }
+        None => "simulated seconds per second (- and =)",
+    });
 }
 
 fn multiple(percent: u32) -> String {
     match percent {
-        25 => "¼".into(),
-        50 => "½".into(),
-        whole if whole % 100 == 0 => format!("{}", whole / 100),
-        other => format!("{:.2}", f64::from(other) / 100.0),
+        25 => "¼×".into(),
+        50 => "½×".into(),
+        whole if whole % 100 == 0 => format!("{}×", whole / 100),
+        other => format!("{:.2}×", f64::from(other) / 100.0),
     }
 }
 

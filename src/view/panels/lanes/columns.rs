@@ -67,10 +67,7 @@ fn marks<'a>() -> [Column<Row<'a>>; 3] {
     let about = "the key that switches to this method, or selects its lane in a race";
     let key = Column::key(about, index);
     let about = "the line of this method in the plots and on the stage";
-    let line = Column::line(about, index, |row: &Row<'a>, palette| {
-        let (strong, dash) = palette.style(row.studio.entries(), row.spec);
-        (if row.entrant.is_some() { strong } else { strong.gamma_multiply(0.7) }, dash)
-    });
+    let line = Column::line(about, index);
     let about = "the integrator of this lane; × is its substeps, a small number its tolerance";
     let method = Column::shown(
         "Method",

@@ -1,9 +1,8 @@
-//! Controls of the loop lab in the top bar. They set the speed of the slow motion and the trace, and show the moment
-//! and the simulated display.
+//! Controls of the loop lab in the top bar. They set the trace, and show the moment and the simulated display.
 
 use egui::{ComboBox, RichText, TextWrapMode, Ui};
 
-use crate::loops::loop_lab::{LoopCommand, LoopLab, SLOWNESS};
+use crate::loops::loop_lab::{LoopCommand, LoopLab};
 use crate::loops::{ENGINES, FrameTrace, TRACES};
 use crate::panels::breakpoints;
 use crate::stage::number::round;
@@ -21,7 +20,7 @@ pub(in crate::panels) fn has_trace_menu_above(ui: &Ui) -> bool {
 }
 
 /// Formats the speed of a slow motion.
-fn speed(slowness: u32) -> String {
+pub(in crate::panels) fn speed(slowness: u32) -> String {
     match slowness {
         1 => "1×".into(),
         2 => "½×".into(),
@@ -29,21 +28,6 @@ fn speed(slowness: u32) -> String {
         8 => "⅛×".into(),
         slower => format!("1/{slower}×"),
     }
-}
-
-pub(in crate::panels) fn speed_menu(ui: &mut Ui, loops: &LoopLab, commands: &mut Vec<Command>) {
-    let chosen = loops.slowness();
-    let menu = ComboBox::from_id_salt("slowness").selected_text(speed(chosen)).width(54.0);
-    let response = menu.height(400.0).show_ui(ui, |ui| {
-        for slowness in SLOWNESS {
-            let text = format!("{} real time", speed(slowness));
-            if ui.selectable_label(slowness == chosen, text).clicked() {
-                commands.push(Command::Loop(LoopCommand::Slowness(slowness)));
-            }
-        }
-    });
-    let about = "playback speed of the frames (- and =); if faster, a monitor adds its own judder";
-    response.response.on_hover_text(about);
 }
 
 /// Shortens a trace's name for the closed menu.
@@ -121,6 +105,7 @@ pub(in crate::panels) fn display(ui: &mut Ui, loops: &LoopLab) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::loops::loop_lab::SLOWNESS;
     use crate::loops::{RefreshRate, trace_file};
 
     #[test]

@@ -39,7 +39,7 @@ impl Series {
 
     pub(super) fn of_row(row: &Row<'_>, palette: &PanelPalette) -> Self {
         let ticks = row.lane().frames().iter().map(|frame| frame.ticks);
-        Self { is_first: row.is_selected(), ..Self::new(palette.loop_style(row.index).0, ticks) }
+        Self { is_first: row.is_selected(), ..Self::new(row.style(palette).0, ticks) }
     }
 }
 

@@ -5,6 +5,7 @@ use egui::{Align2, Rect, Ui, vec2};
 use super::counts::{BELOW, LEFT, NAME, TITLE};
 use super::row::Row;
 use crate::chart::{self, AxisScale, PlotArea, Primitive, Text};
+use crate::panels::table::TableRow;
 use crate::stage::number::round;
 use crate::theme::{PanelPalette, palette};
 
@@ -75,7 +76,7 @@ pub(super) fn layout(room: Rect, lanes: &[Row<'_>], palette: &PanelPalette) -> V
                 left..=left + width.max(1.0),
                 end.min(zero - MIN_HEIGHT)..=end.max(zero + MIN_HEIGHT),
             );
-            all.push(Primitive::Area(bar, palette.loop_style(row.index).0));
+            all.push(Primitive::Area(bar, row.style(palette).0));
         }
     }
     let [name, _] = chart::names(&area, room.left(), [name, ""], palette);

@@ -129,7 +129,7 @@ fn staircase(
     radius: f32,
     palette: &PanelPalette,
 ) -> Vec<Primitive> {
-    let (loops, (colour, dash)) = (row.loops, palette.loop_style(row.index));
+    let (loops, (colour, dash)) = (row.loops, row.style(palette));
     let frames = frames(loops, row.lane());
     let now_ms = loops.now_ns() as f64 / 1e6;
     let at = |displayed_ns: i64, frame: &LoopFrame| {
@@ -198,7 +198,7 @@ fn hover(
             let side = if late_ms < 0.0 { "ahead" } else { "behind" };
             let words = [frame.shown_ms, late_ms.abs()].map(|ms| format!("{ms:.1} ms"));
             let words = format!("{}: {}, {} {side}", row.name(), words[0], words[1]);
-            ui.label(egui::RichText::new(words).color(palette.loop_style(row.index).0));
+            ui.label(egui::RichText::new(words).color(row.style(palette).0));
         }
     });
 }

@@ -53,7 +53,7 @@ impl<'a> Row<'a> {
         let is_lit = response.hovered() || response.has_focus();
         let inked = match (is_lit, is_on) {
             (true, _) => palette(ui).accent,
-            (false, true) => palette(ui).loop_style(self.index).0,
+            (false, true) => self.style(palette(ui)).0,
             (false, false) => palette(ui).dim.gamma_multiply(0.55),
         };
         let centre = rect.left_center() + vec2(9.0, 0.0);
@@ -82,9 +82,12 @@ impl TableRow for Row<'_> {
         self.index == self.loops.selected()
     }
 
-    fn colours(&self, palette: &PanelPalette) -> [Color32; 2] {
-        let text = if self.is_on_stage() { palette.text } else { palette.dim };
-        [palette.loop_style(self.index).0, text]
+    fn style(&self, palette: &PanelPalette) -> (Color32, [f32; 2]) {
+        palette.loop_style(self.index)
+    }
+
+    fn is_dim(&self) -> bool {
+        !self.is_on_stage()
     }
 
     fn command(&self) -> Option<Command> {

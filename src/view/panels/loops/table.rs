@@ -63,10 +63,7 @@ fn columns<'a>(loops: &LoopLab) -> Vec<Column<Row<'a>>> {
         |row| SortKey::Number(if row.is_on_stage() { 0.0 } else { 1.0 }),
     );
     let about = "the line of this loop in the plots and on the stage";
-    let line = Column::line(about, index, |row: &Row<'a>, palette| {
-        let (strong, dash) = palette.loop_style(row.index);
-        (if row.is_on_stage() { strong } else { strong.gamma_multiply(0.7) }, dash)
-    });
+    let line = Column::line(about, index);
     let name = Column::shown(
         "Loop",
         136.0,
