@@ -122,7 +122,8 @@ pub(super) const INFIXES: [Infix; 13] = [
 ];
 
 /// The operators of step lines that the parser writes out, each with its function.
-pub(super) static WRITTEN: [(Infix, &str); 3] = [
+pub(super) static WRITTEN: [(Infix, &str); 4] = [
+    (infix("%%", Level::Product, Op::Call), "mod"),
     (infix("%", Level::Product, Op::Call), "fmod"),
     (infix("mod", Level::Product, Op::Call), "fmod"),
     (infix("//", Level::Product, Op::Call), "floor_divide"),

@@ -51,8 +51,12 @@ pub(super) const INPUT: &str =
 /// Python's `//` in lines whose other `//` are remarks.
 pub(super) const FLOOR_DIVISION: &str = "/\\";
 
+/// The `%` of Python and Lua in lines of theirs.
+pub(super) const FLOOR_REMAINDER: &str = "\u{7f}";
+
 /// Signs of other notations that step lines have too, each with our symbol.
-const STEP_SIGNS: [(&str, &str); 17] = [
+const STEP_SIGNS: [(&str, &str); 18] = [
+    (FLOOR_REMAINDER, "%%"),
     ("===", "=="),
     ("!==", "!="),
     ("**", "^"),

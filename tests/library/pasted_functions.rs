@@ -10,7 +10,7 @@ use crate::rules::{FPS, code, frames};
 const CHASE: &str = "x += (target - x) * 5 * dt";
 
 /// Lines as they are pasted, each with the plain lines that it means.
-const PASTED: [(&str, &str); 51] = [
+const PASTED: [(&str, &str); 52] = [
     // Functions around the lines.
     ("void Update() { x += (target - x) * 5 * Time.deltaTime; }", CHASE),
     (
@@ -99,6 +99,11 @@ const PASTED: [(&str, &str); 51] = [
     (
         "x = x + v\nwhile x > 3 do\n  x = x - 3\nend",
         "x += v; if x > 3 { x -= 3 * ceil((x - 3) / 3) }",
+    ),
+    // Remainders of Lua and Python have the sign of the second number.
+    (
+        "local d = (target - x + 180) % 360 - 180\nx = x + d*0.1",
+        "x += (mod(target - x + 180, 360) - 180)*0.1",
     ),
     // A place that is read, changed and written.
     (

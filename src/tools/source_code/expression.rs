@@ -71,6 +71,7 @@ pub(super) fn spellings<'t>(text: &'t StepText, dialect: &Dialect) -> Spellings<
         let (mut free, mut spelling) = (plain.clone(), (dialect.spelt)(&plain));
         while dialect.is_reserved(&spelling)
             || is_function(&free)
+            || is_of_printer(&free) && !free.ends_with("_own")
             || is_loop_word(&spelling) && !is_duration
             || spellings.values().any(|it| *it == spelling)
         {
@@ -80,6 +81,12 @@ pub(super) fn spellings<'t>(text: &'t StepText, dialect: &Dialect) -> Spellings<
         spellings.insert(name, spelling);
     }
     spellings
+}
+
+/// Whether a name may be that of a function which the code of a rule brings along, such as `rule_sign`.
+fn is_of_printer(name: &str) -> bool {
+    let rest = name.strip_prefix("rule");
+    rest.is_some_and(|rest| rest.starts_with(|c: char| c == '_' || c.is_ascii_uppercase()))
 }
 
 /// Returns the name in code of a number that a game loop is given.

@@ -8,7 +8,7 @@ use super::{Reader, Statement, begins_word};
 use crate::fault::{Parsed, fault, quoted};
 use crate::step_text::names::{after_each, assigns, is_name_of};
 use crate::step_text::{BUILT_IN, V, X};
-use crate::token::{FLOOR_DIVISION, is_name_part};
+use crate::token::{FLOOR_DIVISION, FLOOR_REMAINDER, is_name_part};
 
 /// Words before brackets and a block, which are no function.
 const CONTROLS: [&str; 15] = [
@@ -35,6 +35,9 @@ const CHANGES: [&str; 6] =
 /// Parts of a text that Python and Lua do not have, and parts that only they have.
 const C_PARTS: [&str; 10] = [";", "{", "}", "/*", "let ", "const ", "Math", "&&", "||", "this."];
 const PYTHON_PARTS: [&str; 7] = ["self.", "def ", "elif", "local ", " then", "#", ":\n"];
+
+/// Words of the languages in which a remainder has the sign of its second number.
+const FLOORED: [&str; 2] = ["local ", "def "];
 
 /// Words between two operands.
 const BETWEEN: [&str; 7] = ["and", "or", "not", "if", "else", "then", "mod"];
@@ -227,11 +230,19 @@ pub(in super::super) fn without_heads(
     Ok(kept.into_iter().map(with_start).collect())
 }
 
-/// Writes Python's `//` as the sign of its own that it has in these lines, unless it may begin a remark.
+/// Writes Python's `//`, unless it may begin a remark, and the `%` of Python and Lua as the signs of their own that they
+/// have in these lines.
 pub(in super::super) fn with_floor_divisions(text: &str) -> Cow<'_, str> {
-    if !text.contains("//") || C_PARTS.iter().any(|part| text.contains(part)) {
+    if C_PARTS.iter().any(|part| text.contains(part)) {
         return text.into();
     }
+    let is_floored = text.contains('%') && FLOORED.iter().any(|word| text.contains(word));
+    let text: Cow<'_, str> =
+        if is_floored { text.replace('%', FLOOR_REMAINDER).into() } else { text.into() };
+    if !text.contains("//") {
+        return text;
+    }
+    let text = &*text;
     let is_python = PYTHON_PARTS.iter().any(|part| text.contains(part));
     let mut divided = text.to_owned();
     for (at, sign) in text.match_indices("//") {
@@ -271,6 +282,8 @@ mod tests {
     #[test]
     fn two_slashes_divide_between_operands_and_begin_a_remark_elsewhere() {
         for (written, read) in [
+            ("local d = v % 4\nx += d", "local d = v \u{7f} 4\nx += d"),
+            ("x += v % 4", "x += v % 4"),
             ("x += v // 4", "x += v /\\ 4"),
             ("k = 4\nx += (v - x) // k * 2", "k = 4\nx += (v - x) /\\ k * 2"),
             ("self.x += self.v // drag", "self.x += self.v /\\ drag"),
