@@ -284,7 +284,7 @@ fn of_engine(
     let first = value(stiffness).map_err(|fault| format!("{}: {fault}", stiffness.name))?;
     let second = value(damping).map_err(|fault| format!("{}: {fault}", damping.name))?;
     let first = first.ok_or_else(|| format!("give {} too", stiffness.name))?;
-    let second = second.unwrap_or(0.0);
+    let second = second.unwrap_or(damping.usual);
     if first <= 0.0 || second < 0.0 {
         let (name, value, wanted) = match first <= 0.0 {
             true => (stiffness.name, first, "above 0"),

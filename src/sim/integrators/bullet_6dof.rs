@@ -9,7 +9,8 @@ const MODES: [JointMode; 1] = [mode(
     ("stiffness", Stiffness),
     ("damping", MotorDamping),
     "// btGeneric6DofSpringConstraint, with 10 solver iterations: more damping damps less, and 0 never moves.\nspring->enableSpring(axis, true);\nspring->setStiffness(axis, {stiffness});\nspring->setDamping(axis, {damping});",
-)];
+)
+.usually(1.0)];
 
 pub(super) const CARD: Method = Method {
     id: "engine-bullet-6dof",

@@ -1,16 +1,21 @@
 //! Cannon-es and p2-es, whose springs are forces of the tick's start.
 
+use super::joint_mode::JointQuantity::{NonzeroDamping, Stiffness};
 use super::prelude::*;
 
 const MODES: [JointMode; 6] = [
-    si_mode(
+    mode(
         "spring",
-        "// A damping of 0 counts as 1: write 1e-9.\nconst spring = new CANNON.Spring(a, b, { stiffness: {stiffness}, damping: {damping} })\nworld.addEventListener('postStep', () => spring.applyForce())\nbody.linearDamping = 0",
-    ),
+        ("stiffness", Stiffness),
+        ("damping", NonzeroDamping),
+        "// A damping of 0 would count as 1.\nconst spring = new CANNON.Spring(a, b, { stiffness: {stiffness}, damping: {damping} })\nworld.addEventListener('postStep', () => spring.applyForce())\nbody.linearDamping = 0",
+    )
+    .usually(1.0),
     si_mode(
         "linear-spring",
         "world.addSpring(new p2.LinearSpring(a, b, { stiffness: {stiffness}, damping: {damping} }))\nbody.damping = 0",
     )
+    .usually(1.0)
     .of("engine-p2"),
     si_mode(
         "prismatic-spring",

@@ -12,6 +12,8 @@ pub(super) const FULL_DAMPING: f64 = 240.0;
 pub(super) const MOTOR_LOSS: f64 = 56.5;
 /// The largest such setting, beyond which only rounding damps.
 const NO_LOSS: f64 = 1e6;
+/// The damping per kilogram, in 1/s, in place of a 0 that cannot be written.
+const NEARLY_UNDAMPED: f64 = 1e-9;
 
 /// A way to set a spring in an engine, by one setting for stiffness and one for damping.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -32,12 +34,14 @@ pub struct JointMode {
 }
 
 /// A numerical setting of an engine.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Setting {
     /// The name of the setting in the engine.
     pub name: &'static str,
     /// The quantity of the setting.
     pub quantity: JointQuantity,
+    /// The value in the engine where code leaves the setting out.
+    pub usual: f64,
 }
 
 /// The quantity of a joint's setting.
@@ -53,6 +57,8 @@ pub enum JointQuantity {
     Frequency,
     /// The damping c, in N s/m.
     Damping,
+    /// The damping c, in N s/m, of which the engine takes a 0 as 1.
+    NonzeroDamping,
     /// The part of its way to the rest by which Matter.js moves a body in an iteration, at 60 Hz.
     IterationPart,
     /// The damping per unit of mass, c/m, in 1/s.
@@ -77,7 +83,7 @@ impl JointQuantity {
             StiffnessPerMass => "1/s²",
             Compliance | MotorDamping => "m/N",
             Frequency => "Hz",
-            Damping | Undamped => "N s/m",
+            Damping | NonzeroDamping | Undamped => "N s/m",
             DampingPerMass => "1/s",
             IterationPart | IterationBrake | DampingRatio => "",
         }
@@ -93,6 +99,7 @@ impl JointQuantity {
             Frequency => libm::sqrt(stiffness) / TAU,
             IterationPart => stiffness / FULL_STIFFNESS,
             Damping => damping * mass_kg,
+            NonzeroDamping => damping.max(NEARLY_UNDAMPED) * mass_kg,
             DampingPerMass => damping,
             IterationBrake => damping / FULL_DAMPING,
             MotorDamping => {
@@ -109,6 +116,11 @@ impl JointMode {
     /// Returns the mode as one of another engine with the same map.
     pub(super) const fn of(self, engine: &'static str) -> Self {
         Self { engine: Some(engine), ..self }
+    }
+
+    /// Returns the mode with this damping where code leaves it out.
+    pub(super) const fn usually(self, damping: f64) -> Self {
+        Self { damping: Setting { usual: damping, ..self.damping }, ..self }
     }
 
     /// Returns the settings for the stiffness and for the damping.
@@ -145,6 +157,8 @@ impl JointMode {
         };
         let damping = match self.damping.quantity {
             Damping => second / mass_kg,
+            NonzeroDamping if second == 0.0 => 1.0 / mass_kg,
+            NonzeroDamping => second / mass_kg,
             DampingRatio => 2.0 * second * libm::sqrt(stiffness),
             IterationBrake => second * FULL_DAMPING,
             MotorDamping => {
@@ -180,8 +194,8 @@ pub(super) const fn mode(
     damping: (&'static str, JointQuantity),
     code: &'static str,
 ) -> JointMode {
-    let stiffness = Setting { name: stiffness.0, quantity: stiffness.1 };
-    let damping = Setting { name: damping.0, quantity: damping.1 };
+    let stiffness = Setting { name: stiffness.0, quantity: stiffness.1, usual: 0.0 };
+    let damping = Setting { name: damping.0, quantity: damping.1, usual: 0.0 };
     JointMode { id, stiffness, damping, is_explicit: false, engine: None, code }
 }
 
@@ -217,7 +231,14 @@ mod tests {
     fn any_pair_of_settings_gives_the_same_joint() {
         let joint = [39.5, 0.7];
         for stiffness in [Stiffness, StiffnessPerMass, Compliance, Frequency, IterationPart] {
-            for damping in [Damping, DampingPerMass, DampingRatio, IterationBrake, MotorDamping] {
+            for damping in [
+                Damping,
+                NonzeroDamping,
+                DampingPerMass,
+                DampingRatio,
+                IterationBrake,
+                MotorDamping,
+            ] {
                 let mode = mode("any", ("a", stiffness), ("b", damping), "f({a}, {b})");
                 let back = mode.joint(mode.values(joint, 80.0), 80.0);
                 let is_near = |(a, b): (f64, f64)| (a / b - 1.0).abs() < 1e-14;

@@ -120,6 +120,25 @@ fn physx_5_6_tgs_reproduces_its_measured_motion() {
 }
 
 #[test]
+fn a_damping_of_0_or_none_is_read_and_written_as_its_engine_takes_it() {
+    let want = |from: &str| json(&format!("--from {from} --to engine-p2"))["want"].clone();
+    let one = want("engine-p2:stiffness=40,damping=1");
+    for same in ["engine-cannon:stiffness=40,damping=0", "engine-cannon:stiffness=40"] {
+        assert_eq!(want(same), one, "{same}");
+    }
+    assert_eq!(want("engine-p2:stiffness=40"), one);
+    assert!(want("engine-p2:stiffness=40,damping=0")["damping_ratio"].as_f64().unwrap() < 1e-9);
+    let older = "engine-bullet-6dof:stiffness=40";
+    assert_eq!(want(older), want(&format!("{older},damping=1")));
+    let text = stdout_of("port --frequency 1 --mass 2 --to engine-cannon");
+    assert!(
+        text.contains("spring: reached\n  stiffness = 78.8847 N/m, damping = 2·10⁻⁹"),
+        "{text}"
+    );
+    assert!(text.contains("stiffness: 78.8847067, damping: 2e-9 })"), "{text}");
+}
+
+#[test]
 fn a_damping_floor_is_reported_with_a_way_below_it() {
     let text = stdout_of("port --frequency 1Hz --to engine-box2d,engine-physx");
     for said in [
