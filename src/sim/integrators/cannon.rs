@@ -8,7 +8,7 @@ const MODES: [JointMode; 6] = [
         "spring",
         ("stiffness", Stiffness),
         ("damping", NonzeroDamping),
-        "// A damping of 0 would count as 1.\nconst spring = new CANNON.Spring(a, b, { stiffness: {stiffness}, damping: {damping} })\nworld.addEventListener('postStep', () => spring.applyForce())\nbody.linearDamping = 0",
+        "// A damping of 0 would count as 1.\nconst spring = new CANNON.Spring(a, b, { stiffness: {stiffness}, damping: {damping} })\nspring.applyForce() // postStep comes after a step: without this, the first has no force\nworld.addEventListener('postStep', () => spring.applyForce())\nbody.linearDamping = 0",
     )
     .usually(1.0),
     si_mode(

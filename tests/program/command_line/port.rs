@@ -139,6 +139,16 @@ fn a_damping_of_0_or_none_is_read_and_written_as_its_engine_takes_it() {
 }
 
 #[test]
+fn the_spring_of_cannon_pulls_in_the_first_step_too() {
+    let text = stdout_of("port --frequency 1 --damping-ratio 0.1 --to engine-cannon");
+    // Its event comes after a step, so that a line before it makes the force of the first.
+    let lines: Vec<&str> = text.lines().filter(|line| line.contains("applyForce()")).collect();
+    let [first, later] = lines[..] else { panic!("{text}") };
+    assert!(first.trim().starts_with("spring.applyForce() //"), "{text}");
+    assert!(later.contains("'postStep', () => spring.applyForce()"), "{text}");
+}
+
+#[test]
 fn a_damping_floor_is_reported_with_a_way_below_it() {
     let text = stdout_of("port --frequency 1Hz --to engine-box2d,engine-physx");
     for said in [
