@@ -2,7 +2,8 @@
 
 use regatta::manual::CHAPTERS;
 use regatta::scene::{SCENES, SceneGroup};
-use regatta::sim::integrators::{Engine, Family, GENERAL_METHODS, METHODS, Method};
+use regatta::sim::integrators::{Engine, Family, GENERAL_METHODS, METHODS, Method, OtherEngine};
+use regatta::tools::port::{Setup, setups};
 
 use crate::kept::hold_text;
 use crate::tidy::root;
@@ -81,6 +82,13 @@ fn engine_row(method: &Method) -> Option<String> {
     ))
 }
 
+/// The row of another name of an engine in the manual.
+fn other_engine_row(setup: &Setup) -> Option<String> {
+    let OtherEngine { id, version, logged } = setup.mode.engine?;
+    let logged = logged.unwrap_or("no log");
+    Some(format!("| `{id}` | `{}` | {version} | {logged} |", setup.method.id))
+}
+
 /// Holds the rows of the manual's table that `head` begins in a chapter against these; with `BLESS=1` they become these.
 fn hold_rows(chapter: &str, head: &str, rows: &[String]) {
     let found = manual_table(head);
@@ -117,6 +125,8 @@ fn the_manual_agrees_with_every_card_of_methods_and_engines() {
     hold_rows("methods", "| method | order |", &rows);
     let rows: Vec<String> = engines.into_iter().filter_map(engine_row).collect();
     hold_rows("engines", "| engine | version |", &rows);
+    let rows: Vec<String> = setups(None, 60.0, None).iter().filter_map(other_engine_row).collect();
+    hold_rows("engines", "| other name | card |", &rows);
 }
 
 #[test]

@@ -233,7 +233,7 @@ fn settings_round_trip_through_another_engine() {
 fn the_damping_floor_of_box2d_matches_its_card_and_drops_with_substeps() {
     let wish = Wish { frequency_hz: 1.0, damping_ratio: 0.0, mass_kg: 1.0 };
     let box2d = method("engine-box2d").unwrap();
-    let [setup] = setups(Some(&[box2d]), 60.0, None)[..] else { panic!("one mode") };
+    let setup = setups(Some(&[box2d]), 60.0, None)[0];
     let found = port(&wish, setup).unwrap();
     assert_eq!(found.outcome, PortOutcome::Unreachable);
     let claimed = box2d.engine.unwrap().damping_ratio.unwrap();

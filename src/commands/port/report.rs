@@ -182,7 +182,7 @@ fn ui_spring_text(dialect: &UiSpring, port: &UiSpringPort, frame_hz: f64) -> Str
 }
 
 fn row(PortedEngine { setup, ported }: &PortedEngine) -> Value {
-    let engine = setup.method.engine;
+    let engine = setup.engine();
     let settings = |ported: &Ported| -> Map<String, Value> {
         let names = setup.mode.settings().map(|setting| setting.name.to_owned());
         names.into_iter().zip(ported.values.map(Value::from)).collect()
@@ -221,7 +221,7 @@ fn engine_text(wish: &Wish, PortedEngine { setup, ported }: &PortedEngine) -> St
         format!("  a force of your own reaches it: stiffness {k} N/m, damping {c} N s/m")
     }));
     lines.extend(ported.code().lines().map(|line| format!("    {line}")));
-    let held = setup.method.engine.and_then(|engine| engine.checked_against());
+    let held = setup.engine().and_then(|engine| engine.checked_against());
     lines.extend(held.map(|said| format!("  {said}")));
     lines.join("\n") + "\n"
 }

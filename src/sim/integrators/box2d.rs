@@ -4,12 +4,18 @@ use super::card;
 use super::joint_mode::JointQuantity::{DampingRatio, Frequency};
 use super::prelude::*;
 
-const MODES: [JointMode; 1] = [mode(
-    "spring",
-    ("hertz", Frequency),
-    ("dampingRatio", DampingRatio),
-    "def.enableSpring = true;\ndef.hertz = {hertz};\ndef.dampingRatio = {dampingRatio};\nbodyDef.linearDamping = 0.0;",
-)];
+const fn spring(id: &'static str) -> JointMode {
+    mode(
+        id,
+        ("hertz", Frequency),
+        ("dampingRatio", DampingRatio),
+        "def.enableSpring = true;\ndef.hertz = {hertz};\ndef.dampingRatio = {dampingRatio};\nbodyDef.linearDamping = 0.0;",
+    )
+}
+
+pub(super) const OWN: [JointMode; 1] = [spring("spring")];
+const MODES: [JointMode; 2] =
+    [OWN[0], spring("phaser-box2d").unlogged_of("engine-phaser-box2d", "1.1.0")];
 
 pub(super) const ENGINE: Engine = Engine {
     tick_hz: 60,

@@ -10,7 +10,7 @@ const MODES: [JointMode; 2] = [
         ("dampingRatio", DampingRatio),
         "new DistanceJoint({ frequencyHz: {frequencyHz}, dampingRatio: {dampingRatio} }, a, b, p, q)\nbody.setLinearDamping(0)",
     )
-    .of("engine-planck"),
+    .of("engine-planck", "1.5.0"),
     si_mode(
         "stiffness-and-damping",
         "def.stiffness = {stiffness}f;\ndef.damping = {damping}f;\nbodyDef.linearDamping = 0.0f;",
@@ -28,7 +28,7 @@ pub(super) const CARD: Method = Method {
         substeps: Substeps::Ticks(
             "for (int i = 0; i < {n}; i++) world.Step(dt / {n}, 8, 3); // step {n} times with dt / {n}",
         ),
-        version: "2.4 in box2d-wasm 7.0.0 and planck 1.5.0",
+        version: "2.4 in box2d-wasm 7.0.0",
         logged: Some("2026-11-27"),
         modes: &MODES,
         ..BARE

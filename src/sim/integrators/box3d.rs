@@ -13,6 +13,7 @@ pub(super) const CARD: Method = Method {
         free_spin: Some(FreeSpin::of(SpinMap::NewtonStep)),
         version: "0.1.0 in box3d-sys 0.1.16",
         logged: Some("2026-11-22"),
+        modes: &box2d::OWN,
         ..box2d::ENGINE
     }),
     source: "Box3D 0.1.0 in box3d-sys 0.1.16: solver.c b3IntegrateVelocitiesTask, b3IntegratePositionsTask; \

@@ -26,11 +26,21 @@ pub struct JointMode {
     pub damping: Setting,
     /// Whether the engine computes the spring's force at the start of a substep, like a force of user code.
     pub is_explicit: bool,
-    /// The [other engine](super::Method::also) with the same map that the lines of code are of. `None` for the engine
-    /// of the card.
-    pub engine: Option<&'static str>,
+    /// The other engine with the same map that the lines of code are of. `None` for the engine of the card.
+    pub engine: Option<OtherEngine>,
     /// Lines of code that set the spring, in the engine's own language, with the names of settings in braces.
     pub code: &'static str,
+}
+
+/// An [other engine](super::Method::also) with the map of a card, and the version that was run.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct OtherEngine {
+    /// Kebab-case name on the command line.
+    pub id: &'static str,
+    /// The version of the engine.
+    pub version: &'static str,
+    /// As [`Engine::logged`](super::Engine::logged).
+    pub logged: Option<&'static str>,
 }
 
 /// A numerical setting of an engine.
@@ -113,9 +123,15 @@ impl JointQuantity {
 }
 
 impl JointMode {
-    /// Returns the mode as one of another engine with the same map.
-    pub(super) const fn of(self, engine: &'static str) -> Self {
+    /// Returns the mode as one of this version of another engine with the same map, as it was logged.
+    pub(super) const fn of(self, id: &'static str, version: &'static str) -> Self {
+        let engine = OtherEngine { id, version, logged: Some("2026-11-27") };
         Self { engine: Some(engine), ..self }
+    }
+
+    /// Like [`JointMode::of`], of an engine without logs.
+    pub(super) const fn unlogged_of(self, id: &'static str, version: &'static str) -> Self {
+        Self { engine: Some(OtherEngine { id, version, logged: None }), ..self }
     }
 
     /// Returns the mode with this damping where code leaves it out.
@@ -218,7 +234,7 @@ macro_rules! newton_mode {
                 "(model)"
             ),
         )
-        .of(concat!("engine-", $id))
+        .of(concat!("engine-", $id), "1.8.0")
     };
 }
 pub(super) use newton_mode;

@@ -22,7 +22,7 @@ const MODES: [JointMode; 3] = [
         ("damping", DampingRatio),
         "springSettings: { mode: SpringMode.FREQUENCY_AND_DAMPING, frequencyOrStiffness: {frequencyOrStiffness}, damping: {damping} }\nlinearDamping: 0",
     )
-    .of("engine-crashcat"),
+    .of("engine-crashcat", "0.0.5"),
 ];
 
 pub(super) const CARD: Method = Method {

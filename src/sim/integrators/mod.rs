@@ -125,7 +125,7 @@ pub use follower::{Follower, FollowerRule};
 pub use free_spin::{FreeSpin, SpinMap};
 pub use gyro::{Gyro, GyroRule, Turned};
 pub use integrator::{CloneIntegrator, Integrator, Override, Tolerance};
-pub use joint_mode::{JointMode, JointQuantity, Setting, in_code};
+pub use joint_mode::{JointMode, JointQuantity, OtherEngine, Setting, in_code};
 pub use only::{Needs, Only};
 pub use shared::embedded_pair::{EmbeddedPair, Pair};
 pub use spelling::{UnknownMethod, method_or_nearest, plain};

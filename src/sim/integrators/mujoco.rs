@@ -25,7 +25,7 @@ const MODES: [JointMode; 5] = [
         "prismatic-spring",
         "joint = plant.AddJoint(PrismaticJoint(name, parent, child, axis, damping={damping}))\nplant.AddForceElement(PrismaticSpring(joint, 0.0, {stiffness}))",
     )
-    .of("engine-drake"),
+    .of("engine-drake", "1.51.1"),
     newton_mode!("newton-mujoco", "SolverMuJoCo"),
 ];
 

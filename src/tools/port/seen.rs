@@ -5,7 +5,7 @@ use std::ops::RangeInclusive;
 use nalgebra::{Matrix2, RowVector2, Vector2};
 
 use crate::identify::{Candidate, Effective, LoggedBody, SLOW, SpringForm, run};
-use crate::sim::integrators::{JointMode, Method};
+use crate::sim::integrators::{Engine, JointMode, Method, OtherEngine};
 
 /// An engine's settings for a spring.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -37,7 +37,16 @@ const LONGEST: f64 = 1e5;
 impl Setup {
     /// Returns the id of the engine, or of the [other engine](JointMode::engine) that the mode is of.
     pub fn engine_id(&self) -> &'static str {
-        self.mode.engine.unwrap_or(self.method.id)
+        self.mode.engine.map_or(self.method.id, |engine| engine.id)
+    }
+
+    /// Returns the engine's part of the card, with the version of the engine that the mode is of.
+    pub fn engine(&self) -> Option<Engine> {
+        let engine = self.method.engine?;
+        Some(match self.mode.engine {
+            Some(OtherEngine { version, logged, .. }) => Engine { version, logged, ..engine },
+            None => engine,
+        })
     }
 
     /// Whether the engine goes by this id, which is the card's or that of another engine with the same map. An engine
@@ -45,7 +54,7 @@ impl Setup {
     pub fn is_of(&self, id: &str) -> bool {
         let modes = self.method.engine.map_or(&[][..], |engine| engine.modes);
         let is_known = id == self.method.id || self.method.also.contains(&id);
-        let own = modes.iter().find_map(|mode| mode.engine.filter(|engine| *engine == id));
+        let own = modes.iter().find_map(|mode| mode.engine.filter(|engine| engine.id == id));
         is_known && self.mode.engine == own
     }
 

@@ -110,6 +110,35 @@ fn substeps_are_explained_for_engines_without_their_own() {
 }
 
 #[test]
+fn each_name_of_a_card_has_its_own_version() {
+    for (id, version) in [
+        ("engine-drake", "4.0.0"),
+        ("engine-newton-mujoco", "4.0.0"),
+        ("engine-newton-vbd", "4.0.0"),
+        ("engine-newton-kamino", "4.0.0"),
+        ("engine-crashcat", "5.5.1"),
+        ("engine-phaser-box2d", "617d32a"),
+        ("engine-planck", "2.4"),
+        ("engine-p2", "0.20.0"),
+    ] {
+        let other = format!("port --frequency 1 --damping-ratio 0.2 --to {id}");
+        let row = rows(&json(&other["port ".len()..]), "engines").remove(0);
+        let own = row["version"].as_str().unwrap();
+        assert!(row["method"] == id && !own.contains(version), "{row}");
+        let text = stdout_of(&other);
+        let held = match row["logged"].as_str() {
+            Some(day) => format!("held against version {own} on {day}"),
+            None => format!("read from version {own}, held against no log"),
+        };
+        assert!(text.contains(&held) && !text.contains(&format!("version {version}")), "{text}");
+    }
+    let version =
+        |id| rows(&json(&format!("--frequency 1 --to {id}")), "engines")[0]["version"].clone();
+    let ids = ["engine-drake", "engine-newton-vbd", "engine-crashcat"];
+    assert_eq!(ids.map(version), ["1.51.1", "1.8.0", "0.0.5"]);
+}
+
+#[test]
 fn physx_5_6_tgs_reproduces_its_measured_motion() {
     // In PhysX 5.6.1 the settings of 5.1's card swing at 1.9978 Hz with a damping ratio of 0.1595.
     let from = "engine-physx-tgs-56:mode=force-drive,stiffness=158.851359,damping=3.37567442";
