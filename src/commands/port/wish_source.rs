@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use super::{TARGET, Target, USUAL_HZ};
 use crate::scene::{MAX_SUBSTEPS, clip};
-use crate::sim::integrators::{JointMode, Method, Setting};
+use crate::sim::integrators::{JointMode, JointQuantity, Method, Setting};
 use crate::sim::number::significant;
 use crate::tools::port::{Approach, Friction, Key, Setup, UiSpring, Wish, setups};
 
@@ -291,6 +291,24 @@ fn of_engine(
             false => (damping.name, second, "0 or more"),
         };
         return Err(format!("{name} is {value}; it must be {wanted}"));
+    }
+    match damping.quantity {
+        JointQuantity::Undamped if second > 0.0 => {
+            let is_damped = |other: &&JointMode| other.damping.quantity != JointQuantity::Undamped;
+            let other = modes.iter().copied().find(is_damped);
+            let other = other.map_or(String::new(), |it| format!(", or mode={}", it.id));
+            return Err(format!(
+                "{} is {second}, with which mode={} of {id} is not linear; give 0{other}",
+                damping.name, mode.id
+            ));
+        }
+        JointQuantity::MotorDamping if second == 0.0 => {
+            return Err(format!(
+                "{} is 0, with which {id} never moves, at any tick rate; give more, which damps less",
+                damping.name
+            ));
+        }
+        _ => {}
     }
     let setup = Setup { method, mode, tick_hz, substeps };
     Ok(EngineSettings { setup, joint: mode.joint([first, second], mass_kg), mass_kg })

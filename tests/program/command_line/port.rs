@@ -301,6 +301,14 @@ fn an_impossible_request_is_one_error_with_a_remedy() {
         ("--from engine-godot:damping=8", "give stiffness too"),
         ("--from engine-godot:stiffness", "\"stiffness\" is no KEY=VALUE"),
         ("--from engine-jolt:mStiffness=10,mDamping=-1", "mDamping is -1; it must be 0 or more"),
+        (
+            "--from engine-havok:stiffness=40,damping=2,mode=limit",
+            "damping is 2, with which mode=limit of engine-havok is not linear; give 0, or mode=motor-force",
+        ),
+        (
+            "--from engine-bullet-6dof:stiffness=40,damping=0",
+            "damping is 0, with which engine-bullet-6dof never moves, at any tick rate; give more",
+        ),
         ("--from engine-physx:mode=soft,stiffness=1", "no mode soft; there are force-drive,"),
         ("--from held-force:stiffness=1e5", "nothing swings so in held-force ×4 at 60 Hz"),
         ("--from held-force:stiffness=100", "gains energy: its damping ratio is -0.03"),
