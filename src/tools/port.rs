@@ -9,6 +9,7 @@ use crate::scene::Swing;
 use crate::sim::integrators::{METHODS, Method};
 
 mod drive;
+mod first_second;
 mod follow;
 mod friction;
 mod inverse;
@@ -16,6 +17,7 @@ pub(super) mod seen;
 mod ui_spring;
 
 pub use drive::{DriveLimits, GainRange, drive_limits};
+pub use first_second::FirstSecond;
 pub use follow::{Approach, FollowerPort, followers};
 pub use friction::Friction;
 use inverse::{EvaluatedJoint, invert, min_damping};
@@ -201,7 +203,7 @@ impl Wish {
 pub enum PortOutcome {
     /// The engine shows the wish, to rounding.
     Reached,
-    /// The engine does not show the wish, or only in the mean; the settings come nearest.
+    /// The engine does not show the wish, or only after a second; the settings come nearest.
     Nearest,
     /// The engine does not show the wish, because the engine itself damps more; the settings come nearest.
     Unreachable,
@@ -241,6 +243,8 @@ pub struct Ported {
     pub values: [f64; 2],
     /// The visible motion with these values.
     pub sees: Effective,
+    /// The errors in the first second, if a tick is not linear, so that the values are chosen by them.
+    pub first_second: Option<FirstSecond>,
     /// Smallest damping ratio at the wished frequency, if the engine itself damps.
     pub floor: Option<f64>,
     /// The change that lowers `floor`, if the wish is below `floor`.
@@ -283,7 +287,18 @@ pub fn setups(
 pub fn port(wish: &Wish, setup: Setup) -> Option<Ported> {
     let wanted = wish.effective();
     let sees = |joint| setup.visible_motion(joint);
-    let EvaluatedJoint { joint, seen, missed } = invert(&sees, &wanted)?;
+    let by_second = match setup.mode.is_linear(wish.joint()[1]) {
+        true => None,
+        false => first_second::nearest(&setup, wish)
+            .and_then(|(joint, errors)| Some((joint, sees(joint)?, errors))),
+    };
+    let (joint, seen, missed, first_second) = match by_second {
+        Some((joint, seen, errors)) => (joint, seen, f64::INFINITY, Some(errors)),
+        None => {
+            let EvaluatedJoint { joint, seen, missed } = invert(&sees, &wanted)?;
+            (joint, seen, missed, None)
+        }
+    };
     let least = min_damping(&sees, wanted.omega).map(|(_, ratio)| ratio);
     let floor = least.filter(|ratio| *ratio > REACHED);
     let is_below = floor.is_some_and(|floor| wish.damping_ratio < floor);
@@ -302,6 +317,7 @@ pub fn port(wish: &Wish, setup: Setup) -> Option<Ported> {
         outcome,
         values: setup.mode.values(joint, wish.mass_kg),
         sees: seen,
+        first_second,
         floor,
         relief: if outcome == PortOutcome::Unreachable {
             damping_relief(wish, setup, floor)

@@ -9,8 +9,8 @@ use crate::sim::number::{round, significant};
 use crate::table::Taken;
 use crate::tools::identify::Effective;
 use crate::tools::port::{
-    Approach, Departure, DriveLimits, FollowerPort, Friction, GainRange, PortOutcome, Ported,
-    SETTLED, Setup, UiSpring, UiSpringPort, Wish, settled_s,
+    Approach, Departure, DriveLimits, FirstSecond, FollowerPort, Friction, GainRange, PortOutcome,
+    Ported, SETTLED, Setup, UiSpring, UiSpringPort, Wish, settled_s,
 };
 
 /// Describes a motion by its frequency, its damping ratio, and how long its energy lasts.
@@ -188,6 +188,7 @@ fn row(PortedEngine { setup, ported }: &PortedEngine) -> Value {
         names.into_iter().zip(ported.values.map(Value::from)).collect()
     };
     let word = ported.as_ref().map_or(PortOutcome::Nearest, |ported| ported.outcome).id();
+    let off = |FirstSecond { end, rms }| json!({ "end": end, "rms": rms });
     let force = |[k, c]: [f64; 2]| json!({"stiffness_n_per_m": k, "damping_n_s_per_m": c});
     json!({
         "method": setup.engine_id(),
@@ -198,6 +199,7 @@ fn row(PortedEngine { setup, ported }: &PortedEngine) -> Value {
         "word": word,
         "settings": ported.as_ref().map(settings),
         "sees": ported.as_ref().map(|ported| seen_object(&ported.sees)),
+        "first_second": ported.as_ref().and_then(|ported| ported.first_second).map(off),
         "floor": ported.as_ref().and_then(|p| p.floor).map(|ratio| json!({"damping_ratio": ratio})),
         "own_force": ported.as_ref().and_then(|ported| ported.own_force).map(force),
         "code": ported.as_ref().map(Ported::code),
@@ -228,7 +230,7 @@ fn engine_text(wish: &Wish, PortedEngine { setup, ported }: &PortedEngine) -> St
 
 /// Describes how far the settings miss the wish, and why, if they do.
 fn miss_note(wish: &Wish, ported: &Ported) -> Option<String> {
-    let Setup { method, mode, substeps, tick_hz } = ported.setup;
+    let Setup { method, substeps, tick_hz, .. } = ported.setup;
     let three = |ratio: f64| significant(ratio, 3);
     let [hz, tick_hz] = [round(wish.frequency_hz, 4), round(tick_hz, 6)];
     match (ported.outcome, ported.floor) {
@@ -253,11 +255,12 @@ fn miss_note(wish: &Wish, ported: &Ported) -> Option<String> {
         _ => {
             let off = 100.0 * (ported.sees.undamped_hz() / wish.frequency_hz - 1.0);
             let ratio = ported.sees.damping_ratio().unwrap_or(0.0) - wish.damping_ratio;
-            let [_, damping] = mode.joint(ported.values, wish.mass_kg);
-            let mean = match mode.is_linear(damping) {
-                true => "",
-                false => " in the mean of the first turns, for its damping is not linear",
-            };
+            let mean = ported.first_second.map_or(String::new(), |FirstSecond { end, rms }| {
+                let [end, rms] = [end.abs(), rms].map(|part| significant(100.0 * part, 2));
+                format!(
+                    " in the mean of the first turns, for its damping is not linear; after a release {end} % of it off at 1 s, {rms} % in the mean till then"
+                )
+            });
             Some(format!("missed: frequency by {off:+.3} %, damping ratio by {ratio:+.4}{mean}"))
         }
     }

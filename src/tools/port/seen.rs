@@ -106,7 +106,7 @@ impl Setup {
     }
 
     /// Returns the states at these ticks from a start.
-    fn run(
+    pub(super) fn run(
         &self,
         spring: [f64; 2],
         start: [f64; 2],

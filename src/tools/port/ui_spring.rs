@@ -174,7 +174,7 @@ fn left_at(damping_ratio: f64, angle: f64) -> [f64; 2] {
 }
 
 /// Returns the fraction of the way that is left, as [`left_at`] does.
-fn part_left(damping_ratio: f64, angle: f64) -> f64 {
+pub(super) fn part_left(damping_ratio: f64, angle: f64) -> f64 {
     left_at(damping_ratio, angle)[0]
 }
 
