@@ -269,7 +269,7 @@ pub(super) fn run(args: &PortArgs) -> Result<(), Error> {
         Some(WishSource::UiSpring { .. }) if !args.drive => Target::UiSprings,
         _ => Target::Engines,
     };
-    let (mut tick_hz, mut read) = (args.tick_hz(), None);
+    let (mut tick_hz, mut read, mut frames) = (args.tick_hz(), None, Vec::new());
     let wish = match from {
         Some(WishSource::Approach(..) | WishSource::Friction(_)) if args.drive => {
             return Err(Error::mistake(
@@ -292,8 +292,9 @@ pub(super) fn run(args: &PortArgs) -> Result<(), Error> {
             Error::mistake(format!("--from {}: {fault}", brief(written.as_ref())))
         })?,
         Some(WishSource::UiSpring { as_given, .. }) if args.drive => as_given,
-        Some(WishSource::UiSpring { shown, note, .. }) => {
+        Some(WishSource::UiSpring { shown, note, left, .. }) => {
             note.iter().for_each(|note| print_status(note));
+            frames = left;
             shown
         }
         Some(WishSource::Log(path)) => {
@@ -358,6 +359,8 @@ pub(super) fn run(args: &PortArgs) -> Result<(), Error> {
     } else {
         let of = |setup| PortedEngine { setup, ported: port(&wish, setup) };
         let all: Vec<PortedEngine> = setups.into_iter().map(of).collect();
+        let of = |it: &'static UiSpring| (it, it.port_of_frames(&wish, &frames, tick_hz));
+        let dialects = dialects.into_iter().map(of).collect::<Vec<_>>();
         report::springs((&wish, tick_hz, read.as_ref()), &all, &dialects, args.format)
     };
     let own = UI_SPRINGS.iter().find(|it| it.id == "per-frame").expect("it is in the table");

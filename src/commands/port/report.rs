@@ -108,20 +108,19 @@ fn object((wish, tick_hz, read): (&Wish, f64, Option<&Taken>), rows: Value) -> S
 pub(super) fn springs(
     (wish, tick_hz, read): (&Wish, f64, Option<&Taken>),
     all: &[PortedEngine],
-    dialects: &[&UiSpring],
+    dialects: &[(&UiSpring, UiSpringPort)],
     format: TableFormat,
 ) -> String {
-    let dialects = dialects.iter().map(|dialect| (*dialect, dialect.port(wish, tick_hz)));
+    let dialects = dialects.iter();
     match format {
         TableFormat::Json => {
             let engines: Vec<Value> = all.iter().map(row).collect();
-            let dialects: Vec<Value> =
-                dialects.map(|(it, port)| ui_spring_row(it, &port)).collect();
+            let dialects: Vec<Value> = dialects.map(|(it, port)| ui_spring_row(it, port)).collect();
             object((wish, tick_hz, read), json!({ "engines": engines, "dialects": dialects }))
         }
         TableFormat::Text => {
             let engines = all.iter().map(|engine| engine_text(wish, engine));
-            let dialects = dialects.map(|(it, port)| ui_spring_text(it, &port, tick_hz));
+            let dialects = dialects.map(|(it, port)| ui_spring_text(it, port, tick_hz));
             let settled = if dialects.len() > 0 { settled_line(wish) } else { String::new() };
             wish_line(wish, tick_hz) + &settled + &engines.chain(dialects).collect::<String>()
         }
@@ -149,6 +148,7 @@ fn ui_spring_row(dialect: &UiSpring, port: &UiSpringPort) -> Value {
         "seen": port.seen.as_ref().map(seen),
         "departs": port.departure.map(departs),
         "error": port.error,
+        "delay_s": port.delay_s,
         "ends": port.ends.map(|end| json!({ "at_s": end.at_s, "left": end.left })),
         "code": port.code,
         "source": dialect.source,

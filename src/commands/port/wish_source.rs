@@ -14,8 +14,9 @@ pub(super) enum WishSource {
     /// Settings of an engine.
     Engine(EngineSettings),
     /// Settings of a user interface. `shown` is the motion that the interface shows at its frame rate, and `as_given`
-    /// that of a spring with these numbers, from which the interface may differ, as `note` says.
-    UiSpring { shown: Wish, as_given: Wish, note: Option<String> },
+    /// that of a spring with these numbers, from which the interface may differ, as `note` says. `left` is the fraction
+    /// of the way that is left at each frame, if the interface steps by them.
+    UiSpring { shown: Wish, as_given: Wish, note: Option<String>, left: Vec<f64> },
     /// A velocity of which a constant part remains after each frame.
     Friction(Friction),
     /// A value that chases its target, and the frame rate if it has one.
@@ -23,6 +24,9 @@ pub(super) enum WishSource {
     /// The path of a log.
     Log(PathBuf),
 }
+
+/// Maximum number of frames of a motion without an end.
+const MAX_FRAMES: usize = 10_000;
 
 /// Parses a number, with this unit or without it.
 fn with_unit(written: &str, unit: &str) -> Result<f64, String> {
@@ -92,8 +96,7 @@ impl WishSource {
                     fps,
                 }))
             }
-            "per-frame-decay" => of_decay(rest, tick_hz, mass_kg)
-                .map(|wish| WishSource::UiSpring { shown: wish, as_given: wish, note: None }),
+            "per-frame-decay" => of_decay(rest, tick_hz, mass_kg),
             "smooth-damp" => {
                 let seconds = above_0(rest, "s", "the smoothing time")?;
                 Ok(WishSource::Approach(Approach::of_smooth_time(seconds), None))
@@ -117,7 +120,7 @@ impl WishSource {
 
 /// Returns the motion of a value for which `v = (v + (target - x) * stiffness) * decay; x += v` is computed once a
 /// frame.
-fn of_decay(written: &str, fps: f64, mass_kg: f64) -> Result<Wish, String> {
+fn of_decay(written: &str, fps: f64, mass_kg: f64) -> Result<WishSource, String> {
     let how = "write per-frame-decay:stiffness=0.2,decay=0.85, where decay is what is left of v";
     let mut values = [None; 2];
     for pair in written.split(',') {
@@ -129,7 +132,14 @@ fn of_decay(written: &str, fps: f64, mass_kg: f64) -> Result<Wish, String> {
         }
     }
     let [Some(stiffness), Some(decay)] = values else { return Err(how.into()) };
-    Wish::of_decay_per_frame([stiffness, decay], fps, mass_kg)
+    let wish = Wish::of_decay_per_frame([stiffness, decay], fps, mass_kg)?;
+    let frame = |[left, v]: &[f64; 2]| {
+        let v = (v + left * stiffness) * decay;
+        Some([left - v, v])
+    };
+    let frames = std::iter::successors(Some([1.0, 0.0]), frame).take(MAX_FRAMES);
+    let left = frames.map(|[left, _]| left).collect();
+    Ok(WishSource::UiSpring { shown: wish, as_given: wish, note: None, left })
 }
 
 /// Shows how to write the settings of an engine.
@@ -182,11 +192,21 @@ fn of_ui_spring(
     let of_mass = |wish| if dialect.has_mass() { wish } else { Wish { mass_kg, ..wish } };
     let [as_given, shown] =
         [dialect.as_given(&values)?, dialect.shown(&values, frame_hz)?].map(of_mass);
+    let left = match dialect.steps() {
+        "exact" => Vec::new(),
+        _ => dialect.run(&values, frame_hz)?.0,
+    };
     let said = |wish: Wish| {
         let [hz, ratio] = [wish.frequency_hz, wish.damping_ratio].map(|x| significant(x, 4));
         (format!("{hz} Hz, damping ratio {ratio}"), ratio)
     };
     let ((shows, ratio), (says, given)) = (said(shown), said(as_given));
+    let css = UiSpring::of_id("css").expect("it is in the table");
+    let ahead_s = css.port_of_frames(&shown, &left, frame_hz).delay_s.map(|delay_s| -delay_s);
+    let ahead = ahead_s.filter(|ahead_s| ahead_s.abs() > 1e-3).map_or(String::new(), |ahead_s| {
+        let way = if ahead_s > 0.0 { "ahead of" } else { "behind" };
+        format!("; it runs {} ms {way} such a spring", significant(1e3 * ahead_s.abs(), 2))
+    });
     let switch = dialect.keys.iter().find(|key| key.switch.is_some());
     let note = (shows != says).then(|| match (dialect.id, switch) {
         (id, Some(Key { name, .. })) => {
@@ -195,10 +215,10 @@ fn of_ui_spring(
         (id, None) => {
             let by_frames = format!(" at {frame_hz} frames per second");
             let at = if dialect.steps() == "exact" { "" } else { &by_frames };
-            format!("{id} shows {shows}{at}; its numbers say {says}")
+            format!("{id} shows {shows}{at}; its numbers say {says}{ahead}")
         }
     });
-    Ok(WishSource::UiSpring { shown, as_given, note })
+    Ok(WishSource::UiSpring { shown, as_given, note, left })
 }
 
 /// The settings of a spring in an engine.

@@ -2,8 +2,6 @@
 //!
 //! Each library takes the distance to the target as the stretch. The mass is 1 if the library has none of its own.
 
-use std::fmt::Write;
-
 use nalgebra::Matrix2;
 
 use super::follow::map_of_frame;
@@ -17,10 +15,12 @@ use crate::sim::numerics::bisect;
 use crate::sim::{Body, State};
 
 mod cards;
+mod curve;
 mod ends;
 mod numbers;
 
 pub use cards::UI_SPRINGS;
+use curve::Curve;
 use ends::Rest;
 pub use ends::{End, SETTLED, settled_s};
 
@@ -144,6 +144,8 @@ pub struct UiSpringPort {
     pub departure: Option<Departure>,
     /// Largest error of a motion drawn through points, as a fraction of the way.
     pub error: Option<f64>,
+    /// Time in seconds by which a motion through points starts later, to be nearest to the frames of another library.
+    pub delay_s: Option<f64>,
     /// The end of the motion over a way of 1, if the library's rule ends it.
     pub ends: Option<End>,
     /// The line of code; empty if the library has no values for the wish.
@@ -152,8 +154,6 @@ pub struct UiSpringPort {
 
 /// Frame rate in Hz that stands in for an unknown one.
 pub const USUAL_FRAME_HZ: f64 = 60.0;
-/// Number of places at which the error is sampled.
-const PLACES: u32 = 20_000;
 /// Points show another motion if their error is larger than this, as a fraction of the way.
 const ASTRAY: f64 = 0.1;
 /// Lowest and highest frame rate per second in the search for the limit of stability, and number of times that the
@@ -182,29 +182,6 @@ pub(super) fn part_left(damping_ratio: f64, angle: f64) -> f64 {
 fn decimal(value: f64) -> String {
     let rounded = format!("{value:.8e}").parse::<f64>();
     rounded.unwrap_or(value).to_string()
-}
-
-/// Returns the points of a motion as a style sheet writes them, and the largest error of the lines between these
-/// points.
-fn curve(wish: &Wish, [duration, points, ..]: Values) -> (String, f64) {
-    let pieces = points as u32 - 1;
-    let at = |place: f64| 1.0 - part_left(wish.damping_ratio, wish.omega() * duration * place);
-    let point = |i: u32| match i == pieces {
-        true => 1.0,
-        false => (1e4 * at(f64::from(i) / f64::from(pieces))).round() / 1e4,
-    };
-    let (mut written, mut error) = ("0".to_owned(), 0.0_f64);
-    let parts = PLACES / pieces;
-    for i in 0..pieces {
-        let [from, to] = [point(i), point(i + 1)];
-        write!(written, ", {to}").expect("a text takes all");
-        for part in 0..=parts {
-            let part = f64::from(part) / f64::from(parts);
-            let exact = at((f64::from(i) + part) / f64::from(pieces));
-            error = error.max((from + (to - from) * part - exact).abs());
-        }
-    }
-    (written, error)
 }
 
 impl UiSpring {
@@ -298,7 +275,10 @@ impl UiSpring {
         let read = self.limited.or(self.read);
         let motion = read.filter(|_| has_values).map_or(*wish, |read| read(values));
         let (points, error) = match self.steps {
-            Steps::Sampled if has_values => curve(wish, values),
+            Steps::Sampled if has_values => {
+                let curve = Curve::of(wish, values);
+                (curve.written(), curve.error(wish))
+            }
             _ => Default::default(),
         };
         let departure = (self.departure)(&motion);
@@ -340,9 +320,31 @@ impl UiSpring {
             seen,
             departure,
             error: (error > 0.0).then_some(error),
+            delay_s: None,
             ends: self.end(&motion, values, frame_hz).filter(|_| has_values),
             code: if has_values { code } else { String::new() },
         }
+    }
+
+    /// Like [`UiSpring::port`], for the motion of another library that leaves these fractions of the way at its frames.
+    /// A motion through points is held against them.
+    pub fn port_of_frames(&self, wish: &Wish, left: &[f64], frame_hz: f64) -> UiSpringPort {
+        let mut port = self.port(wish, frame_hz);
+        if let (false, Some(_)) = (left.is_empty(), port.error) {
+            let curve = Curve::of(wish, all_values(&port.values));
+            let (delay_s, error) = curve.delay_to(left, frame_hz);
+            if delay_s != 0.0 {
+                port.code += &format!(" {delay_s}s");
+            }
+            (port.error, port.delay_s) = (Some(error), Some(delay_s));
+            let end = (port.values[0] + delay_s) * frame_hz;
+            let at_s = libm::ceil(end - 1e-6) / frame_hz;
+            port.ends = port.ends.map(|end| End { at_s, ..end });
+            if error > ASTRAY {
+                (port.outcome, port.seen) = (PortOutcome::Unreachable, None);
+            }
+        }
+        port
     }
 
     /// Returns the switches that these values turn on.
@@ -436,7 +438,13 @@ impl UiSpring {
                 format!("the closed form{times}{}", departs.unwrap_or_default())
             }
             Steps::Sampled => match port.error {
-                Some(error) => format!("off by {} % of the way at most", percent(error)),
+                Some(error) => {
+                    let at = port.delay_s.map_or(String::new(), |delay_s| {
+                        let ms = significant(1e3 * delay_s, 2);
+                        format!(" at these {frame_hz} frames per second, with a delay of {ms} ms")
+                    });
+                    format!("off by {} % of the way at most{at}", percent(error))
+                }
                 None => "without damping it never ends, and has no last point".into(),
             },
             Steps::Milliseconds if !port.is_stable => {

@@ -456,6 +456,44 @@ fn an_interface_is_read_as_it_moves_and_its_limits_are_said() {
 }
 
 #[test]
+fn css_from_react_spring_is_off_at_its_frames_as_said() {
+    for (fps, longest) in [(30, 34), (60, 17), (120, 9)] {
+        let from = format!("port --from react-spring:tension=180,friction=12 --tick-hz {fps}");
+        let output = run(&format!("{from} --to css --format json"));
+        let found: Value = serde_json::from_slice(&output.stdout).unwrap();
+        let row = rows(&found, "dialects").remove(0);
+        let code = row["code"].as_str().unwrap();
+        let (head, rest) = code.split_once("s linear(").unwrap();
+        let (points, delay) = rest.split_once(") ").unwrap();
+        let points: Vec<f64> = points.split(", ").map(|point| point.parse().unwrap()).collect();
+        let duration: f64 = head.rsplit(' ').next().unwrap().parse().unwrap();
+        let delay: f64 = delay.trim_end_matches('s').parse().unwrap();
+        let (mut x, mut v, mut most) = (0.0_f64, 0.0_f64, 0.0_f64);
+        for frame in 0..fps {
+            let time = f64::from(frame) / f64::from(fps) - delay;
+            let place = (time / duration).clamp(0.0, 0.999_999) * (points.len() - 1) as f64;
+            let [from, to] = [0, 1].map(|i| points[place as usize + i]);
+            most = most.max((from + (to - from) * place.fract() - x).abs());
+            // Steps of 1 ms, and 17 in the first frame at every rate.
+            for _ in 0..if frame == 0 { 17 } else { longest } {
+                v += 1e-3 * (180.0 * (1.0 - x) - 12.0 * v);
+                x += 1e-3 * v;
+            }
+        }
+        let said = row["error"].as_f64().unwrap();
+        assert!((most / said - 1.0).abs() < 1e-3 && said < 0.01, "{fps}: {most}, not {said}");
+        let text = String::from_utf8(run(&format!("{from} --to css")).stdout).unwrap();
+        assert!(
+            text.contains(&format!("at these {fps} frames per second, with a delay of")),
+            "{text}"
+        );
+        assert!(delay != 0.0 && row["delay_s"] == delay, "{row}");
+    }
+    let said = stderr(&run("port --from react-spring:tension=180 --tick-hz 30 --to motion"));
+    assert!(said.contains("ms behind such a spring"), "{said}");
+}
+
+#[test]
 fn each_interface_ends_a_motion_by_its_rule_and_the_rest_of_the_way_is_told() {
     let motion = "--frequency 4.6401Hz --damping-ratio 1.15";
     let settles =
