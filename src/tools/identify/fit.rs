@@ -21,7 +21,7 @@ const DISPLACEMENT: f64 = 1e-4;
 const PRECISE_IN_SINGLE: f64 = 1.5e-5;
 /// Largest residual that may be rounding in a log of double precision by an engine, which may keep a mass in single
 /// precision.
-const PRECISE_OF_ENGINE: f64 = 1e-6;
+const PRECISE_OF_ENGINE: f64 = 3e-6;
 /// Largest residual that may be rounding in a log of double precision by any other method.
 const PRECISE_IN_DOUBLE: f64 = 1e-8;
 /// Largest residual that is rounding alone.
