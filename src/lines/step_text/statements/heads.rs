@@ -230,8 +230,8 @@ pub(in super::super) fn without_heads(
     Ok(kept.into_iter().map(with_start).collect())
 }
 
-/// Writes Python's `//`, unless it may begin a remark, and the `%` of Python and Lua as the signs of their own that they
-/// have in these lines.
+/// Writes Python's `//`, unless it may begin a remark, and the `%` of Python and Lua as the signs of their own in these
+/// lines.
 pub(in super::super) fn with_floor_divisions(text: &str) -> Cow<'_, str> {
     if C_PARTS.iter().any(|part| text.contains(part)) {
         return text.into();
