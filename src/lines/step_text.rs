@@ -21,7 +21,7 @@ use paths::of_one_component;
 use plain::plain;
 use reader::{Reader, SPIN_NAMES};
 pub use statements::Declares;
-use statements::{statements, with_floor_divisions, without_heads};
+use statements::{statements, with_floor_signs, without_heads};
 pub use tree::MethodInput;
 pub use tree::{Operation, StepBody, bracketed};
 
@@ -179,7 +179,7 @@ impl StepText {
     }
 
     fn read_lines(text: &str, method_at: Option<Range<usize>>) -> Result<Self, ExpressionFault> {
-        let (mut plain, components) = plain(&with_floor_divisions(text));
+        let (mut plain, components) = plain(&with_floor_signs(text));
         let all = statements(&plain, text)?;
         let all = without_heads(&mut plain, all)?;
         let (statements, left_out) = of_one_component(&mut plain, all, &components)?;

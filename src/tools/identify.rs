@@ -114,7 +114,7 @@ pub struct Identification {
 
 const MAX_RECOMMENDED: usize = 3;
 
-/// Largest residual from a start at rest that is assumed, in units of that from a fitted start, and of the least one.
+/// Largest residual from a supposed start at rest, as a multiple of that from a fitted start, and the least of these.
 const REST_NEARER: f64 = 10.0;
 const REST_EXACT: f64 = 1e-10;
 
@@ -166,7 +166,7 @@ pub fn identify(log: &Log, body: &LoggedBody, tick_hz: f64) -> Option<Identifica
     if is_open && !log.has_velocities() && body.v0.is_none() {
         let still = LoggedBody { v0: Some(0.0), ..usual };
         let told = identify_with(log, &still, (tick_hz, None), swing);
-        // Without that start, nothing is farther from the log.
+        // A start at rest that leads away from the log is not its start.
         let residual = |it: &Identification| it.best.map_or(f64::INFINITY, |best| best.residual);
         let most = REST_NEARER * found.as_ref().map_or(f64::INFINITY, residual).max(REST_EXACT);
         let is_near = |it: &Identification| residual(it) <= most;

@@ -11,7 +11,7 @@ use crate::token::{is_name_part, is_name_start};
 mod blocks;
 mod heads;
 
-pub(super) use heads::{with_floor_divisions, without_heads};
+pub(super) use heads::{with_floor_signs, without_heads};
 
 /// A statement with the byte ranges of its parts.
 #[derive(Clone, Debug, PartialEq, Eq)]

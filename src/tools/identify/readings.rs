@@ -1,5 +1,8 @@
 //! Other readings of a log and of the numbers given with it, for a log that no method explains as it stands.
 
+use super::candidates::candidates;
+use super::decision::NO_FIT;
+use super::fit::{Start, fit};
 use super::{Conclusion, Identification, Log, LoggedBody, identify};
 use crate::sim::integrators::{Method, method};
 
@@ -53,6 +56,9 @@ pub fn identify_reading(
     }
     let most = known.map_or(f64::INFINITY, |it| NEARER * residual(it));
     for Reading { log, body, words, engine } in readings(log, body, mass) {
+        if !engine.is_empty() && !may_be_of(engine, &log, &body) {
+            continue;
+        }
         let Some(other) = identify(&log, &body, log.tick_hz()) else { continue };
         let best = other.best.map(|best| best.candidate);
         let mut names = best.iter().chain(&other.also);
@@ -62,6 +68,14 @@ pub fn identify_reading(
         }
     }
     (found, None)
+}
+
+/// Whether a method whose id starts so comes near the log. This takes less time than a search of all methods.
+fn may_be_of(engine: &str, log: &Log, body: &LoggedBody) -> bool {
+    let start = Start { tick_hz: log.tick_hz(), rest: None, seen: None, map: None };
+    let is_near =
+        |candidate| fit(log, body, candidate, start).is_some_and(|fit| fit.residual() <= NO_FIT);
+    candidates(body).into_iter().filter(|it| it.method.id.starts_with(engine)).any(is_near)
 }
 
 /// Whether the method moves the body before it changes the velocity.

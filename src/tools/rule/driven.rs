@@ -197,18 +197,9 @@ impl Rule {
         let h = self.step_length(fps);
         let mut at = vec![0.0; self.text.carried().len()];
         (at[0], at[1]) = (0.0, start);
-        let mut registers = self.text.registers();
         let mut height = 0.0_f64;
         for frame in 1..MAX_WATCHED as u32 {
-            if self.modes.is_empty() {
-                at.iter().enumerate().for_each(|(index, value)| {
-                    self.text.set(&mut registers, index, *value);
-                });
-                self.text.step(&mut registers, h, 0.0);
-                (0..at.len()).for_each(|index| at[index] = self.text.value(&registers, index));
-            } else {
-                at = self.text.map_on(&self.modes, h, &at, 0.0).values;
-            }
+            at = self.text.map_on(&self.modes, h, &at, 0.0).values;
             let place = at[0] * start.signum();
             if place.is_nan() || place <= LANDED * height {
                 return (height > 0.0).then_some([height, f64::from(frame) / fps]);

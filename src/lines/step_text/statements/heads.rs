@@ -232,7 +232,7 @@ pub(in super::super) fn without_heads(
 
 /// Writes Python's `//`, unless it may begin a remark, and the `%` of Python and Lua as the signs of their own in these
 /// lines.
-pub(in super::super) fn with_floor_divisions(text: &str) -> Cow<'_, str> {
+pub(in super::super) fn with_floor_signs(text: &str) -> Cow<'_, str> {
     if C_PARTS.iter().any(|part| text.contains(part)) {
         return text.into();
     }
@@ -277,7 +277,7 @@ pub(in super::super) fn with_floor_divisions(text: &str) -> Cow<'_, str> {
 
 #[cfg(test)]
 mod tests {
-    use super::with_floor_divisions;
+    use super::with_floor_signs;
 
     #[test]
     fn two_slashes_divide_between_operands_and_begin_a_remark_elsewhere() {
@@ -296,7 +296,7 @@ mod tests {
             ("x += v; // 4", "x += v; // 4"),
             ("let k = 4\nx += k // 4", "let k = 4\nx += k // 4"),
         ] {
-            assert_eq!(with_floor_divisions(written), read, "{written}");
+            assert_eq!(with_floor_signs(written), read, "{written}");
         }
     }
 }
