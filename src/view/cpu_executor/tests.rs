@@ -230,3 +230,32 @@ fn other_letters_change_only_the_pixels_that_are_known_to_have_letters() {
     assert!((1_000..20_000).contains(&letters), "{letters}");
     assert!(within.beyond(0) > letters / 2, "{} of {letters}", within.beyond(0));
 }
+
+#[test]
+fn a_row_drawn_in_blocks_has_the_bytes_of_its_pixels_drawn_one_by_one() {
+    use super::spans::{Line, Ramp, blend_ramped, stroke, stroke_ramped};
+    const WIDTH: usize = 21;
+    let ramp = |start: f32, end: f32| Ramp { start, step: (end - start) / WIDTH as f32 };
+    let at = |ramp: Ramp, x: usize| Ramp { start: ramp.start + ramp.step * x as f32, step: 0.0 };
+    let colour = [ramp(250.0, 10.0), ramp(3.0, 90.0), ramp(0.0, 0.0), ramp(255.0, 60.0)];
+    let below: Vec<Pixel> = (0..WIDTH as u8).map(|x| [12 * x, 255 - 9 * x, 77, 255]).collect();
+    let (half, across) = (ramp(2.5, 0.2), ramp(-3.0, 3.0));
+    for turns in [ramp(-0.1, 0.2), ramp(-0.3, 2.9)] {
+        let line = Line { half, across, turns, reach: 1.5, period: 5.0 };
+        let mut rows = [below.clone(), below.clone(), below.clone()];
+        stroke(&mut rows[0], &line, [200, 100, 7, 220]);
+        stroke_ramped(&mut rows[1], &line, colour);
+        blend_ramped(&mut rows[2], colour);
+        let mut alone = [below.clone(), below.clone(), below.clone()];
+        for x in 0..WIDTH {
+            let [half, across] = [half, across].map(|ramp| at(ramp, x));
+            let of_pixel = Line { half, across, turns: at(turns, x), ..line };
+            let colour = colour.map(|channel| at(channel, x));
+            stroke(&mut alone[0][x..=x], &of_pixel, [200, 100, 7, 220]);
+            stroke_ramped(&mut alone[1][x..=x], &of_pixel, colour);
+            blend_ramped(&mut alone[2][x..=x], colour);
+        }
+        assert_eq!(rows, alone, "{turns:?}");
+        assert!(rows.iter().all(|row| *row != below));
+    }
+}
