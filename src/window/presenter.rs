@@ -219,9 +219,12 @@ impl Processor {
         let [Some(width), Some(height)] = self.size_px.map(NonZero::new) else { return Ok(()) };
         self.surface.resize(width, height).map_err(refused)?;
         let mut buffer = self.surface.buffer_mut().map_err(refused)?;
-        for (to, [red, green, blue, _]) in buffer.iter_mut().zip(self.rows.as_chunks::<4>().0) {
+        for (to, rgba) in buffer.iter_mut().zip(self.rows.as_chunks::<4>().0) {
+            // Shifts of a word become vector instructions, and moves of its bytes do not.
+            let abgr = u32::from_le_bytes(*rgba);
+            let [red, green, blue] = [abgr & 0xff, abgr & 0xff00, abgr >> 16 & 0xff];
             // Displays ignore the first byte, but a screenshot may take it for opacity.
-            *to = u32::from_be_bytes([255, *red, *green, *blue]);
+            *to = 0xff00_0000 | red << 16 | green | blue;
         }
         window.pre_present_notify();
         buffer.present().map_err(refused)
