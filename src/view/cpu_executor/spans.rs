@@ -85,7 +85,11 @@ pub(super) fn blend(pixels: &mut [Pixel], colour: Pixel) {
     match colour {
         [0, 0, 0, 0] => {}
         [_, _, _, 255] => pixels.fill(colour),
-        _ => pixels.iter_mut().for_each(|pixel| *pixel = over(colour, *pixel)),
+        _ => {
+            for pixel in pixels {
+                *pixel = over(colour, u32::from_le_bytes(*pixel)).to_le_bytes();
+            }
+        }
     }
 }
 
@@ -113,7 +117,7 @@ pub(super) fn textured(
         if texel != [0; 4] {
             let source = [0, 1, 2, 3]
                 .map(|channel| level(colour[channel].at(x) * (f32::from(texel[channel]) / 255.0)));
-            *pixel = over(source, *pixel);
+            *pixel = over(source, u32::from_le_bytes(*pixel)).to_le_bytes();
         }
     }
 }
@@ -157,6 +161,7 @@ fn blend_each(pixels: &mut [Pixel], source: impl Fn(f32) -> [f32; 4]) {
     }
 }
 
+/// [`blend_each`] of a block whose first pixel has this index.
 #[inline(always)]
 fn blend_block(block: &mut [Pixel; BLOCK], first: f32, source: &impl Fn(f32) -> [f32; 4]) {
     let mut words = [0; BLOCK];
@@ -164,40 +169,28 @@ fn blend_block(block: &mut [Pixel; BLOCK], first: f32, source: &impl Fn(f32) -> 
         *word = u32::from_le_bytes(*pixel);
     }
     for (n, word) in words.iter_mut().enumerate() {
-        *word = word_over(source(first + n as f32), *word);
+        let [red, green, blue, alpha] = source(first + n as f32);
+        *word = over([level(red), level(green), level(blue), level(alpha)], *word);
     }
     for (pixel, word) in block.iter_mut().zip(words) {
         *pixel = word.to_le_bytes();
     }
 }
 
-/// [`over`] of a colour that is to be rounded, with four bytes in a number.
+/// A premultiplied colour over another, which has red in its lowest byte.
 #[inline(always)]
-fn word_over([red, green, blue, alpha]: [f32; 4], below: u32) -> u32 {
-    let level = |channel| u32::from(level(channel));
-    let through = 255 - level(alpha);
-    let channel = |source, below: u32| {
+fn over([red, green, blue, alpha]: Pixel, below: u32) -> u32 {
+    let through = u32::from(255 - alpha);
+    let channel = |source: u8, below: u32| {
+        // The nearest whole number of 255ths, exactly.
         let sum = (below & 255) * through + 128;
-        let sum = level(source) + ((sum + (sum >> 8)) >> 8);
+        let sum = u32::from(source) + ((sum + (sum >> 8)) >> 8);
         if sum < 255 { sum } else { 255 }
     };
     channel(red, below)
         | channel(green, below >> 8) << 8
         | channel(blue, below >> 16) << 16
         | channel(alpha, below >> 24) << 24
-}
-
-/// A premultiplied colour over another.
-fn over(source: Pixel, below: Pixel) -> Pixel {
-    let through = u16::from(255 - source[3]);
-    let mut over = [0; 4];
-    for channel in 0..4 {
-        // The nearest whole number of 255ths, exactly.
-        let sum = u16::from(below[channel]) * through + 128;
-        let below = ((sum + (sum >> 8)) >> 8) as u8;
-        over[channel] = source[channel].saturating_add(below);
-    }
-    over
 }
 
 /// Adding and subtracting it rounds a number of moderate size to the nearest whole number, and ties to even.
