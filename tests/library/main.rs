@@ -66,6 +66,7 @@ mod rollback;
 mod rules;
 mod scenes;
 mod sessions;
+mod small_motions;
 mod source_code;
 mod stability;
 mod stable;

@@ -109,8 +109,13 @@ pub(super) fn deviation_along_forces(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::bodies::kind;
+    use crate::bodies::Spring;
     use crate::integrators::{GENERAL_METHODS, method};
+    use crate::stepper;
+
+    fn spring(x0: f64, v0: f64) -> Spring {
+        Spring { mass: 2.0, stiffness: 180.0, damping: 3.0, x0, v0, kick: 1.0 }
+    }
 
     /// Returns the largest difference between two states, relative to 1 and their size.
     fn apart(found: &[f64], wanted: &[f64]) -> f64 {
@@ -127,10 +132,8 @@ mod tests {
 
     #[test]
     fn a_deviation_from_rest_moves_like_a_linear_body() {
-        let spring = kind("spring").unwrap();
-        let values = [2.0, 180.0, 3.0, 1.0, 0.0, 1.0];
         for method in GENERAL_METHODS.iter().filter(|method| method.tolerance.is_none()) {
-            let mut stepper = (spring.build)(&values, Solver::Method(method));
+            let mut stepper = stepper(spring(1.0, 0.0), Solver::Method(method));
             let jacobian = DMatrix::from_row_slice(1, 2, &[-90.0, -1.5]);
             let mut deviation = linear(jacobian, method);
             for [q, v] in [[1.0, 0.0], [-0.3, 4.0]] {
@@ -145,8 +148,7 @@ mod tests {
     fn the_difference_of_two_motions_of_a_linear_body_is_a_deviation() {
         let rk4 = method("rk4").unwrap();
         // Starts in a state in which coordinate, velocity and force are all nonzero.
-        let values = [2.0, 180.0, 3.0, 0.7, 1.5, 1.0];
-        let body = (kind("spring").unwrap().build)(&values, Solver::Truth);
+        let body = stepper(spring(0.7, 1.5), Solver::Truth);
         let found = reached(&mut *deviation_along_forces(&*body, 0.0, 0.05, 1e-3, rk4), 0.2, -4.0);
         let mut stepper = body.with_solver(Solver::Method(rk4), 0.0);
         let [near, far] = [[0.7, 1.5], [0.9, -2.5]].map(|[q, v]| reached(&mut *stepper, q, v));

@@ -215,18 +215,9 @@ fn bump(part: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::Solver;
-    use crate::bodies::kind;
-    use crate::integrators::{GENERAL_METHODS, method};
-    use crate::stability::normal_modes;
-
-    fn body(id: &str, values: &[f64]) -> Box<dyn Stepper> {
-        (kind(id).unwrap().build)(values, Solver::Truth)
-    }
-
-    fn mode(omega_squared: f64, damping_per_s: f64) -> NormalMode {
-        NormalMode { shape: vec![1.0], omega_squared, damping_per_s }
-    }
+    use crate::bodies::Spring;
+    use crate::integrators::method;
+    use crate::{Solver, stepper};
 
     fn near(found: f64, wanted: f64) -> bool {
         (found - wanted).abs() <= 1e-12 * wanted.abs()
@@ -242,7 +233,7 @@ mod tests {
             (0.0, 5.0, None, [0.0, -5.0]),
             (0.0, 0.0, None, [0.0, 0.0]),
         ] {
-            let mode = mode(omega_squared, damping);
+            let mode = NormalMode { shape: vec![1.0], omega_squared, damping_per_s: damping };
             assert_eq!(mode.swing(), swing, "{mode:?}");
             assert_eq!(mode.is_conserved(), damping == 0.0);
             let found = mode.true_modes();
@@ -252,141 +243,12 @@ mod tests {
         }
     }
 
-    const MASSES: usize = 5;
-
-    fn chain(damping: f64) -> Box<dyn Stepper> {
-        body("chain", &[MASSES as f64, 0.5, 200.0, damping, 2.0, 0.7, 2.0])
-    }
-
-    #[test]
-    fn the_modes_of_a_chain_are_its_standing_waves() {
-        for damping in [0.0, 0.3] {
-            let mut modes = normal_modes(&*chain(damping)).unwrap();
-            modes.sort_by(|a, b| a.omega_squared.total_cmp(&b.omega_squared));
-            assert_eq!(modes.len(), MASSES);
-            for (n, mode) in (1..).zip(&modes) {
-                let half = n as f64 * std::f64::consts::PI / 2.0 / (MASSES + 1) as f64;
-                let wanted = 4.0 * libm::sin(half) * libm::sin(half);
-                assert!((mode.omega_squared / (wanted * 400.0) - 1.0).abs() < 1e-12, "{mode:?}");
-                let decay = wanted * damping / 0.5;
-                assert!((mode.damping_per_s - decay).abs() < 1e-12, "{mode:?}");
-                // `length` is the projection of a wave of amplitude 1 onto a shape of length 1.
-                let wave: Vec<f64> =
-                    (1..=MASSES).map(|j| libm::sin(2.0 * half * j as f64)).collect();
-                let length = ((MASSES + 1) as f64 / 2.0).sqrt();
-                for other in &modes {
-                    let part = if other == mode { length } else { 0.0 };
-                    assert!((other.part(&wave).abs() - part).abs() < 1e-12, "{n}: {other:?}");
-                }
-            }
-        }
-    }
-
-    #[test]
-    fn a_nonlinear_body_has_no_modes_and_thrust_does_not_change_modes() {
-        assert_eq!(normal_modes(&*body("pendulum", &[1.0, 1.0, 9.81, 0.0, 1.0, 0.0, 1.0])), None);
-        assert_eq!(normal_modes(&*body("orbit", &[1000.0, 9.0, 2.0, 1.5, 10.0, 0.3])), None);
-        let ship = body("ship", &[2000.0, 300.0, 1000.0, 0.0, 0.0, 1.0]);
-        let modes = normal_modes(&*ship).unwrap();
-        assert_eq!(modes.len(), 1);
-        assert_eq!((modes[0].omega_squared, modes[0].damping_per_s), (0.0, 0.3));
-    }
-
-    #[test]
-    fn a_chain_mode_is_as_stable_as_a_spring_of_its_frequency_and_damping() {
-        for damping in [0.0, 0.3] {
-            let chain = unforced(&*chain(damping));
-            for mode in normal_modes(&*chain).unwrap() {
-                let values = [1.0, mode.omega_squared, mode.damping_per_s, 1.0, 0.0, 1.0];
-                let spring = body("spring", &values);
-                let alone = NormalMode { shape: vec![1.0], ..mode.clone() };
-                for method in GENERAL_METHODS.iter().filter(|method| method.tolerance.is_none()) {
-                    for (h, substeps) in [(0.02, 1), (0.04, 2), (0.06, 1)] {
-                        let solver = Solver::Method(method);
-                        let tick = Tick { t: 0.0, h, substeps };
-                        let found = mode.stability(&*chain, solver, tick).unwrap();
-                        let alone = alone.stability(&*spring, solver, tick).unwrap();
-                        let all = |s: Stability| {
-                            [
-                                s.spectral_radius,
-                                s.growth_per_s,
-                                s.loss_per_s,
-                                s.frequency_error.unwrap_or(9.0),
-                            ]
-                        };
-                        for (found, alone) in all(found).into_iter().zip(all(alone)) {
-                            let off = (found - alone).abs();
-                            assert!(
-                                off <= 1e-6,
-                                "{}, {mode:?}, {h} s: {found}, {alone}",
-                                method.id
-                            );
-                        }
-                    }
-                }
-            }
-        }
-    }
-
-    #[test]
-    fn a_frequency_error_is_known_up_to_half_a_turn_per_tick() {
-        let midpoint = Solver::Method(method("implicit-midpoint").unwrap());
-        for (turned, told) in
-            [(3.1, true), (3.2, false), (8.0, false), (13.0, false), (30.0, false)]
-        {
-            let spring = body("spring", &[1.0, turned * turned, 0.0, 1.0, 0.0, 1.0]);
-            let tick = Tick { t: 0.0, h: 1.0, substeps: 1 };
-            let found = mode(turned * turned, 0.0).stability(&*spring, midpoint, tick);
-            let error = found.unwrap().frequency_error;
-            let wanted = 2.0 * libm::atan(turned / 2.0) / turned - 1.0;
-            assert_eq!(error.is_some(), told, "{turned} rad");
-            let is_near = |error: f64| (error - wanted).abs() <= 1e-9 * wanted.abs();
-            assert!(error.is_none_or(is_near), "{turned} rad: {error:?}, not {wanted}");
-        }
-    }
-
-    #[test]
-    fn a_small_motion_has_the_map_of_a_large_one_without_speed_limit() {
-        let spring = body("spring", &[1.0, 9e6, 600.0, 1.0, 0.0, 1.0]);
-        let of = |id: &str, h: f64| {
-            let (mode, solver) = (mode(9e6, 600.0), Solver::Method(method(id).unwrap()));
-            let tick = Tick { t: 0.0, h, substeps: 1 };
-            let small = mode.stability_of_small(&*spring, solver, tick).unwrap();
-            (small, mode.stability(&*spring, solver, tick).unwrap())
-        };
-        for id in ["rk4", "implicit-midpoint", "adams-bashforth-2"] {
-            let (small, large) = of(id, 1e-4);
-            assert_eq!(small, large, "{id}");
-        }
-        // Rapier's limit of 400 m/s is below the 3000 m/s of an amplitude of 1 m.
-        let (small, large) = of("engine-rapier", 1e-4);
-        assert_ne!(small, large);
-    }
-
-    #[test]
-    fn a_small_loss_of_a_multistep_method_is_found_over_many_ticks() {
-        let h = 0.001;
-        let spring = body("spring", &[1.0, 25.0, 0.0, 1.0, 0.0, 1.0]);
-        let tick = Tick { t: 0.0, h, substeps: 1 };
-        let solver = Solver::Method(method("bdf2").unwrap());
-        let found = mode(25.0, 0.0).stability(&*spring, solver, tick).unwrap();
-        // BDF2 on y′ = iω y reduces the amplitude by z⁴/4 per step, to first order.
-        let wanted = 0.005_f64.powi(4) / 4.0 / h;
-        assert!((found.loss_per_s / wanted - 1.0).abs() < 0.01, "{found:?}, not {wanted}");
-        assert!((found.growth_per_s / wanted + 1.0).abs() < 0.01, "{found:?}, not {wanted}");
-        // Adams-Bashforth gains by the same rate and has no loss.
-        let solver = Solver::Method(method("adams-bashforth-2").unwrap());
-        let found = mode(25.0, 0.0).stability(&*spring, solver, tick).unwrap();
-        assert!((found.growth_per_s / wanted - 1.0).abs() < 0.01, "{found:?}, not {wanted}");
-        assert_eq!(found.loss_per_s, 0.0);
-    }
-
     /// Measures the growth rate of an undamped spring of 1 kg and ω = 6 rad/s, which is released at 1 m, with an energy
     /// of 18 J.
     fn growth(id: &str, h: f64, seconds: f64) -> Result<f64, StepFailure> {
-        let build = &kind("spring").unwrap().build;
-        let mut spring =
-            build(&[1.0, 36.0, 0.0, 1.0, 0.0, 1.0], Solver::Method(method(id).unwrap()));
+        let spring =
+            Spring { mass: 1.0, stiffness: 36.0, damping: 0.0, x0: 1.0, v0: 0.0, kick: 1.0 };
+        let mut spring = stepper(spring, Solver::Method(method(id).unwrap()));
         let tick = Tick { t: 0.0, h, substeps: 1 };
         growth_of_energy(&mut *spring, tick, (4.0 * seconds / h) as u64, 18.0)
     }

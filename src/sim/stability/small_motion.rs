@@ -277,53 +277,7 @@ const SMOOTH: f64 = 1e-3;
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::Solver;
-    use crate::bodies::kind;
-    use crate::integrators::{GENERAL_METHODS, method};
-
-    fn body(id: &str, values: &[f64]) -> Box<dyn Stepper> {
-        (kind(id).unwrap().build)(values, Solver::Truth)
-    }
-
-    #[test]
-    fn a_pendulum_at_rest_swings_like_a_spring_and_an_orbit_has_no_rest() {
-        let pendulum = body("pendulum", &[2.0, 3.0, 9.81, 0.6, 1.2, 0.5, 1.0]);
-        let modes = SmallMotion::of(&*pendulum).unwrap().normal_modes().unwrap();
-        assert_eq!(modes.len(), 1);
-        assert!((modes[0].omega_squared / (9.81 / 2.0) - 1.0).abs() < 1e-6, "{modes:?}");
-        // The damping is c / (m l²), with l = 2 m and m = 3 kg.
-        assert!((modes[0].damping_per_s / (0.6 / 12.0) - 1.0).abs() < 1e-6, "{modes:?}");
-        let orbit = SmallMotion::of(&*body("orbit", &[1000.0, 9.0, 2.0, 1.5, 10.0, 0.3]));
-        assert_eq!(orbit.err(), Some(NoSmallMotion::NoRest));
-    }
-
-    #[test]
-    fn a_whole_chain_is_as_stable_as_its_modes() {
-        for damping in [0.0, 0.3] {
-            let chain = unforced(&*body("chain", &[4.0, 0.5, 200.0, damping, 2.0, 0.7, 2.0]));
-            let small = SmallMotion::of(&*chain).unwrap();
-            let modes = small.normal_modes().unwrap();
-            let coupled = small.coupled().unwrap();
-            assert!(!coupled.grows());
-            for method in GENERAL_METHODS.iter().filter(|method| method.tolerance.is_none()) {
-                for (h, substeps) in [(0.02, 1), (0.04, 2), (0.06, 1)] {
-                    let tick = Tick { t: 0.0, h, substeps };
-                    let found = coupled.stability(method, h, substeps).unwrap();
-                    let (mut growth, mut radius) = (f64::NEG_INFINITY, 0.0_f64);
-                    for mode in &modes {
-                        let alone = mode.stability(&*chain, Solver::Method(method), tick).unwrap();
-                        growth = growth.max(alone.growth_per_s);
-                        radius = radius.max(alone.spectral_radius);
-                    }
-                    let what = format!("{}, c = {damping}, {h} s", method.id);
-                    let off = (found.growth_per_s - growth).abs();
-                    assert!(off <= 1e-6 * (1.0 + growth.abs()), "{what}: {found:?}, {growth}");
-                    let off = (found.spectral_radius / radius - 1.0).abs();
-                    assert!(off <= 1e-6, "{what}: {found:?}, {radius}");
-                }
-            }
-        }
-    }
+    use crate::integrators::method;
 
     #[test]
     fn true_growth_is_not_counted_unless_a_method_is_off_by_a_tenth() {
