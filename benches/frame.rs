@@ -1,5 +1,5 @@
-//! What a frame costs, stage by stage: from events to picture, to pixels, to a file; and how long the
-//! program takes from its start to the first frame.
+//! What a frame costs, stage by stage: from events to picture, to pixels, to a file; how long the program takes from its
+//! start to the first frame; and what a window draws anew of a frame that differs little from the one before.
 
 use std::hint::black_box;
 use std::num::NonZero;
@@ -9,7 +9,7 @@ use regatta::scene::{LaneSpec, Scene};
 use regatta::sim::integrators::GENERAL_METHODS;
 use regatta::stage;
 use regatta::studio::{RunCommand, StageCommand, Studio};
-use regatta::view::{CpuExecutor, FrameRenderer, OffscreenRenderer, Panels, png};
+use regatta::view::{CpuExecutor, FrameRenderer, KeptFrame, OffscreenRenderer, Panels, png};
 
 /// A frame at 60 a second.
 const FRAME_NS: i64 = 16_666_667;
@@ -34,6 +34,56 @@ fn main() {
     let mut all = harbour;
     all.lanes = GENERAL_METHODS.iter().map(LaneSpec::plain).collect();
     measure(all);
+    println!(
+        "\nin a window of 1920x1080 with panels, in ms: a frame drawn whole, and where it differs"
+    );
+    for id in ["spring", "harbour"] {
+        let scene = Scene::built_in(id).expect("a built-in scene");
+        window(&format!("{id}, running"), Studio::new(scene.clone()), FRAME_NS);
+        window(&format!("{id}, racing"), racing(scene.clone()), FRAME_NS);
+        window(&format!("{id}, paused"), Studio::new(scene), 0);
+    }
+}
+
+/// Prints what drawing the frames of a window takes, if each is drawn whole and if only what differs is.
+fn window(name: &str, mut studio: Studio, frame_ns: i64) {
+    const SIZE_PX: [u32; 2] = [1920, 1080];
+    let mut renderer = FrameRenderer::new(4096);
+    let mut executor = CpuExecutor::new(NonZero::<usize>::MIN);
+    let mut kept = KeptFrame::new(NonZero::<usize>::MIN);
+    let mut rgba = Vec::new();
+    for _ in 0..WARM_UP {
+        studio.advance(FRAME_NS);
+    }
+    let (mut times, mut drawn_px) = ([const { Vec::new() }; 2], 0);
+    for frame in 0..2 * FRAMES {
+        studio.advance(frame_ns);
+        let input = egui::RawInput { time: Some(studio.race().t()), ..Default::default() };
+        let (_, output) = renderer.draw(SIZE_PX, 1.0, input, &studio);
+        let start = Instant::now();
+        executor.execute(&output.drawing, &mut rgba);
+        let whole = start.elapsed();
+        kept.draw(&output.drawing);
+        let differing = start.elapsed() - whole;
+        assert!(*kept.pixels().as_flattened() == *rgba, "other pixels");
+        // The first frames find the backdrop and the letters.
+        if frame >= FRAMES {
+            times[0].push(whole);
+            times[1].push(differing);
+            drawn_px +=
+                kept.changed().map(|[.., columns, rows]| columns * rows).sum::<u32>() as usize;
+        }
+    }
+    let [whole, differing] = times.map(|mut times| {
+        times.sort();
+        millis(times[FRAMES / 2])
+    });
+    let part = drawn_px as f64 / (FRAMES * kept.pixels().len()) as f64;
+    println!(
+        "{name:44} {whole:>8.3} {differing:>8.3}  {:.2} times, {:.0} % of the pixels",
+        differing / whole,
+        100.0 * part,
+    );
 }
 
 fn racing(scene: Scene) -> Studio {

@@ -37,8 +37,8 @@ a wall clock: text comes in as `&str`, time as integers.
 
 events → [`Command`](studio::Command)s → [`Studio::apply`](studio::Studio::apply) → [`Action`](scene::Action)s →
 [`Race`](run::Race) → [`PerformedAction`](run::race::PerformedAction) → [`Clock::advance`](sim::Clock::advance) →
-due [ticks](run::Run::tick) → [`compose`](stage::compose()) → `FrameRenderer::draw` → `CpuExecutor` or
-`GpuExecutor`. A [`FrameLoop`](studio::FrameLoop) does this in real time.
+due [ticks](run::Run::tick) → [`compose`](stage::compose()) → `FrameRenderer::draw` → `CpuExecutor`,
+`KeptFrame` in a window, or `GpuExecutor`. A [`FrameLoop`](studio::FrameLoop) does this in real time.
 
 # Invariants
 

@@ -3,7 +3,9 @@
 //! It calculates with whole numbers, and with floats only by `+`, `-`, `*`, `/` and square roots, which round alike on
 //! every machine. So the same drawing has the same bytes everywhere, whatever the number of threads.
 
+mod kept_frame;
 mod spans;
+mod tiles;
 mod triangle;
 
 use std::collections::HashMap;
@@ -18,37 +20,65 @@ use fearless_simd::Level;
 
 use super::drawing::{DrawKind, Drawing, SeaRect, StrokeVertex};
 use super::screen_transform::ScreenTransform;
+pub use kept_frame::KeptFrame;
 use spans::{Pixel, Ramp};
+use tiles::Tiles;
 use triangle::{Triangle, Window};
 
 /// The textures of a renderer's drawings. A clone shares their pixels.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Textures(HashMap<TextureId, Arc<ColorImage>>);
+pub(super) struct Textures {
+    present: HashMap<TextureId, Texture>,
+    /// Number of changes so far.
+    changes: u64,
+}
+
+#[derive(Clone, Debug)]
+struct Texture {
+    image: Arc<ColorImage>,
+    /// The last change of what drawings before it may have shown.
+    change: u64,
+}
 
 impl Textures {
-    /// Applies the changes of the next drawing. Returns the textures to draw it with.
-    pub(super) fn update(&mut self, drawing: &Drawing) -> Self {
+    /// Applies the changes of the next drawing. Passes the textures to draw it with to `draw`.
+    pub(super) fn update<T>(&mut self, drawing: &Drawing, draw: impl FnOnce(&Self) -> T) -> T {
         for (id, delta) in &drawing.textures.set {
             let ImageData::Color(image) = &delta.image;
-            match (delta.pos, self.0.get_mut(id)) {
-                (None, _) => _ = self.0.insert(*id, Arc::clone(image)),
-                (Some(at), Some(whole)) => copy_into(Arc::make_mut(whole), image, at),
+            self.changes += 1;
+            let change = self.changes;
+            match (delta.pos, self.present.get_mut(id)) {
+                (None, _) => {
+                    let image = Arc::clone(image);
+                    self.present.insert(*id, Texture { image, change });
+                }
+                (Some(at), Some(texture)) => {
+                    if copy_into(Arc::make_mut(&mut texture.image), image, at) {
+                        texture.change = change;
+                    }
+                }
                 (Some(_), None) => {}
             }
         }
-        let present = self.clone();
+        let drawn = draw(self);
         for id in &drawing.textures.freed {
-            self.0.remove(id);
+            self.present.remove(id);
         }
-        present
+        drawn
     }
 }
 
-fn copy_into(whole: &mut ColorImage, part: &ColorImage, [left, top]: [usize; 2]) {
+/// Returns whether it changes more than texels that were transparent, as those of new letters are.
+fn copy_into(whole: &mut ColorImage, part: &ColorImage, [left, top]: [usize; 2]) -> bool {
+    let mut has_changed = false;
     for (y, row) in part.pixels.chunks_exact(part.width().max(1)).enumerate() {
         let first = (top + y) * whole.width() + left;
-        whole.pixels[first..first + row.len()].copy_from_slice(row);
+        let texels = &mut whole.pixels[first..first + row.len()];
+        let mut pairs = texels.iter().zip(row);
+        has_changed |= pairs.any(|(was, is)| was != is && *was != Color32::TRANSPARENT);
+        texels.copy_from_slice(row);
     }
+    has_changed
 }
 
 /// Draws the drawings of one renderer.
@@ -77,7 +107,8 @@ impl CpuExecutor {
 
     /// Replaces `rows` by the pixels of the drawing: red, green, blue, alpha, top row first, no padding.
     pub fn execute(&mut self, drawing: &Drawing, rows: &mut Vec<u8>) {
-        self.rasterizer.draw(drawing, &self.textures.update(drawing), rows);
+        let Self { textures, rasterizer } = self;
+        textures.update(drawing, |textures| rasterizer.draw(drawing, textures, rows));
     }
 }
 
@@ -98,20 +129,36 @@ impl Rasterizer {
 
     /// [`CpuExecutor::execute`] with these textures.
     pub(super) fn draw(&mut self, drawing: &Drawing, textures: &Textures, rows: &mut Vec<u8>) {
+        self.draw_tiles(drawing, textures, rows, None);
+    }
+
+    /// Brings `rows` from the drawing before, which `tiles` was passed with, to this one.
+    fn draw_tiles(
+        &mut self,
+        drawing: &Drawing,
+        textures: &Textures,
+        rows: &mut Vec<u8>,
+        tiles: Option<&mut Tiles>,
+    ) {
         let [width, height] = drawing.size_px.map(|side| side as usize);
         rows.resize(4 * width * height, 0);
         let pixels: &mut [Pixel] = rows.as_chunks_mut().0;
-        let Some(backdrop) = drawing.backdrop.filter(|_| self.has_room_for(pixels.len())) else {
-            return self.paint(drawing, textures, pixels, 0..usize::MAX, None);
+        let backdrop = drawing.backdrop.filter(|_| self.has_room_for(pixels.len()));
+        let tiles = tiles.map(|tiles| {
+            tiles.compare(drawing, textures, backdrop);
+            &*tiles
+        });
+        let Some(backdrop) = backdrop else {
+            return self.paint(drawing, textures, pixels, 0..usize::MAX, None, tiles);
         };
         let covered = 1 + backdrop.draws;
         if self.backdrop_id.replace(backdrop.id) != Some(backdrop.id) {
-            self.paint(drawing, textures, pixels, 0..covered, None);
+            self.paint(drawing, textures, pixels, 0..covered, None, None);
             self.backdrop.clear();
             self.backdrop.extend_from_slice(pixels.as_flattened());
         }
         let below = self.backdrop.as_chunks().0;
-        self.paint(drawing, textures, pixels, covered..usize::MAX, Some(below));
+        self.paint(drawing, textures, pixels, covered..usize::MAX, Some(below), tiles);
     }
 
     /// Whether there is memory for a backdrop of this number of pixels.
@@ -120,7 +167,8 @@ impl Rasterizer {
         self.backdrop.try_reserve_exact(missing).is_ok()
     }
 
-    /// Paints parts of the drawing over `below` or black: part 0 is the sea, and part `n` is draw `n - 1`.
+    /// Paints parts of the drawing over `below` or black: part 0 is the sea, and part `n` is draw `n - 1`. Only tiles
+    /// that have changed, if there are `tiles`.
     #[expect(clippy::disallowed_methods, reason = "any number of threads makes the same bytes")]
     fn paint(
         &self,
@@ -129,6 +177,7 @@ impl Rasterizer {
         pixels: &mut [Pixel],
         parts: Range<usize>,
         below: Option<&[Pixel]>,
+        tiles: Option<&Tiles>,
     ) {
         let [width, height] = drawing.size_px.map(|side| side as usize);
         if pixels.is_empty() {
@@ -137,18 +186,17 @@ impl Rasterizer {
         let band_rows = height.div_ceil(self.threads.get());
         let band_pixels = band_rows * width;
         let paint = |n: usize, pixels: &mut [Pixel]| {
-            match below {
-                Some(below) => {
-                    let first = n * band_pixels;
-                    pixels.copy_from_slice(&below[first..first + pixels.len()]);
-                }
-                None => pixels.fill([0, 0, 0, 255]),
-            }
             let top = (n * band_rows) as i32;
-            Band { top, width, pixels }.paint(drawing, textures, parts.clone());
+            let mut band = Band { top, width, pixels, tiles };
+            band.clear(below);
+            band.paint(drawing, textures, parts.clone());
         };
         let mut bands = pixels.chunks_mut(band_pixels).enumerate();
         let Some((_, first)) = bands.next() else { return };
+        if bands.len() == 0 {
+            // A scope allocates.
+            return paint(0, first);
+        }
         thread::scope(|threads| {
             for (n, band) in bands {
                 let paint = &paint;
@@ -165,52 +213,79 @@ struct Band<'p> {
     top: i32,
     width: usize,
     pixels: &'p mut [Pixel],
+    /// Only those that have changed are drawn.
+    tiles: Option<&'p Tiles>,
 }
 
 impl Band<'_> {
+    /// Replaces the rows by those of `below`, a whole frame, or by black.
+    fn clear(&mut self, below: Option<&[Pixel]>) {
+        let (top, width) = (self.top, self.width as i32);
+        for y in top..self.bottom() {
+            self.row(y, 0..width, |pixels, first| match below {
+                Some(below) => {
+                    let first = (y * width) as usize + first;
+                    pixels.copy_from_slice(&below[first..first + pixels.len()]);
+                }
+                None => pixels.fill([0, 0, 0, 255]),
+            });
+        }
+    }
+
     fn paint(&mut self, drawing: &Drawing, textures: &Textures, parts: Range<usize>) {
         if let Some(sea) = drawing.sea.filter(|_| parts.start == 0) {
             self.sea(&sea);
         }
         let draws = drawing.draws.iter().take(parts.end - 1);
+        let mut first = 0;
         for draw in draws.skip(parts.start.max(1) - 1) {
-            let Some(window) = self.window(draw.scissor_px) else { continue };
+            let triangles = first..first + draw.indices.len() / 3;
+            first = triangles.end;
+            let within = [self.top, self.bottom()];
+            let Some(window) = window(draw.scissor_px, self.width as i32, within) else { continue };
             let transform = &drawing.transforms[draw.place as usize];
             let at = Placement { window, transform };
+            let tiles = self.tiles;
+            let is_drawn = |n: &usize| tiles.is_none_or(|tiles| tiles.is_changed(*n));
             match draw.kind {
                 DrawKind::Stroke => {
-                    let corners = drawing.strokes.corners(&draw.indices);
-                    corners.for_each(|corners| self.stroke(at, corners));
+                    let corners = triangles.zip(drawing.strokes.corners(&draw.indices));
+                    corners
+                        .filter(|(n, _)| is_drawn(n))
+                        .for_each(|(_, corners)| self.stroke(at, corners));
                 }
                 DrawKind::OpaqueFill => {
-                    let corners = drawing.triangles.corners(&draw.indices);
-                    corners.for_each(|corners| self.fill(at, corners));
+                    let corners = triangles.zip(drawing.triangles.corners(&draw.indices));
+                    corners
+                        .filter(|(n, _)| is_drawn(n))
+                        .for_each(|(_, corners)| self.fill(at, corners));
                 }
                 DrawKind::Textured(id) => {
-                    let Some(texture) = textures.0.get(&id) else { continue };
-                    let corners = drawing.triangles.corners(&draw.indices);
-                    corners.for_each(|corners| self.textured(at, corners, texture));
+                    let Some(texture) = textures.present.get(&id) else { continue };
+                    let corners = triangles.zip(drawing.triangles.corners(&draw.indices));
+                    corners
+                        .filter(|(n, _)| is_drawn(n))
+                        .for_each(|(_, corners)| self.textured(at, corners, &texture.image));
                 }
             }
         }
     }
 
-    /// The part of a scissor rectangle within this band, if any.
-    fn window(&self, [left, top, width, height]: [u32; 4]) -> Option<Window> {
-        let band_bottom = self.top + (self.pixels.len() / self.width) as i32;
-        let [left, top, width, height] = [left, top, width, height].map(|side| side as i32);
-        let window = Window {
-            left,
-            top: top.max(self.top),
-            right: (left + width).min(self.width as i32),
-            bottom: (top + height).min(band_bottom),
-        };
-        (window.left < window.right && window.top < window.bottom).then_some(window)
+    /// Beyond the last row.
+    fn bottom(&self) -> i32 {
+        self.top + (self.pixels.len() / self.width) as i32
     }
 
-    fn span(&mut self, y: i32, xs: Range<i32>) -> &mut [Pixel] {
+    /// Passes the parts of a row that are to be drawn to `draw`, each with its distance from the first pixel.
+    fn row(&mut self, y: i32, xs: Range<i32>, mut draw: impl FnMut(&mut [Pixel], usize)) {
+        let xs = xs.start as usize..xs.end as usize;
         let first = (y - self.top) as usize * self.width;
-        &mut self.pixels[first + xs.start as usize..first + xs.end as usize]
+        let row = &mut self.pixels[first..first + self.width];
+        let Some(tiles) = self.tiles else { return draw(&mut row[xs], 0) };
+        for part in tiles.changed(y as usize, xs.clone()) {
+            let first = part.start - xs.start;
+            draw(&mut row[part], first);
+        }
     }
 
     /// `water` in `shaders/sea.wgsl`.
@@ -219,7 +294,8 @@ impl Band<'_> {
         const REACH: f32 = 1.25;
         /// Lightening in its middle.
         const LIGHT: f32 = 0.40;
-        let Some(window) = self.window(scissor_px) else { return };
+        let within = [self.top, self.bottom()];
+        let Some(window) = window(scissor_px, self.width as i32, within) else { return };
         let [left_px, top_px, right_px, bottom_px] = rect_px.map(|side| side as i32);
         let columns = window.left.max(left_px)..window.right.min(right_px);
         if columns.is_empty() {
@@ -241,7 +317,9 @@ impl Band<'_> {
             let from_light = [columns.start as f32 + 0.5 - middle[0], at - middle[1]];
             let [start, y_part] = from_light.map(|px| px / reach);
             let x = Ramp { start, step: 1.0 / reach };
-            spans::water(self.span(y, columns.clone()), colour, light, x, y_part);
+            self.row(y, columns.clone(), |pixels, first| {
+                spans::water(pixels, first, colour, light, x, y_part);
+            });
         }
     }
 
@@ -271,14 +349,16 @@ impl Band<'_> {
         match one_colour(colours) {
             Some(colour) => triangle.rows(|y, xs| {
                 let line = line(xs.start, y);
-                spans::stroke(self.span(y, xs), &line, colour);
+                self.row(y, xs, |pixels, first| spans::stroke(pixels, first, &line, colour));
             }),
             None => {
                 let channels = channels(colours).map(|channel| slopes.plane(channel));
                 triangle.rows(|y, xs| {
                     let line = line(xs.start, y);
                     let colour = channels.map(|channel| channel.ramp(xs.start, y));
-                    spans::stroke_ramped(self.span(y, xs), &line, colour);
+                    self.row(y, xs, |pixels, first| {
+                        spans::stroke_ramped(pixels, first, &line, colour);
+                    });
                 });
             }
         }
@@ -308,24 +388,36 @@ impl Band<'_> {
             let x = xs.start;
             let texels = [u, v].map(|plane| plane.ramp(x, y));
             let colour = channels.map(|channel| channel.ramp(x, y));
-            spans::textured(self.span(y, xs), texture, texels, colour);
+            self.row(y, xs, |pixels, first| {
+                spans::textured(pixels, first, texture, texels, colour);
+            });
         });
     }
 
     /// Blends a triangle of full cover.
     fn blend(&mut self, triangle: &Triangle, colours: [Color32; 3]) {
         match one_colour(colours) {
-            Some(colour) => triangle.rows(|y, xs| spans::blend(self.span(y, xs), colour)),
+            Some(colour) => triangle.rows(|y, xs| {
+                self.row(y, xs, |pixels, _| spans::blend(pixels, colour));
+            }),
             None => {
                 let slopes = triangle.slopes();
                 let channels = channels(colours).map(|channel| slopes.plane(channel));
                 triangle.rows(|y, xs| {
                     let colour = channels.map(|channel| channel.ramp(xs.start, y));
-                    spans::blend_ramped(self.span(y, xs), colour);
+                    self.row(y, xs, |pixels, first| spans::blend_ramped(pixels, first, colour));
                 });
             }
         }
     }
+}
+
+/// The part of a scissor rectangle between two rows of a frame of this width, if any.
+fn window(scissor_px: [u32; 4], frame_width: i32, [first, end]: [i32; 2]) -> Option<Window> {
+    let [left, top, width, height] = scissor_px.map(|side| side as i32);
+    let right = (left + width).min(frame_width);
+    let window = Window { left, top: top.max(first), right, bottom: (top + height).min(end) };
+    (window.left < window.right && window.top < window.bottom).then_some(window)
 }
 
 /// Where the triangles of a draw may lie, and which pixels they may change.

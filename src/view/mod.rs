@@ -48,7 +48,7 @@ pub use {egui, wgpu};
 pub use chart::AxisScale;
 pub use chart::figure::{Axis, Chart, Figure, FigureCurve, Legend, span};
 pub use copying::{ClipboardText, clipboard_text};
-pub use cpu_executor::{CpuExecutor, Rasterizer, letter_instructions};
+pub use cpu_executor::{CpuExecutor, KeptFrame, Rasterizer, letter_instructions};
 pub use drawing::Drawing;
 pub use frame::{FrameOutput, FrameRenderer, LaidOutFrame};
 pub use gpu::{Gpu, GpuError, RendererChoice};

@@ -224,7 +224,7 @@ impl OffscreenRenderer {
         let drawing = self.drawing(studio);
         Ok(PreparedFrame(match &mut self.drawn_by {
             DrawnBy::Processor(executor) => {
-                let present = executor.textures.update(&drawing);
+                let present = executor.textures.update(&drawing, Textures::clone);
                 Prepared::Drawing(Box::new(drawing), present)
             }
             DrawnBy::Device(device) => {

@@ -9,7 +9,9 @@ use winit::event_loop::{ActiveEventLoop, OwnedDisplayHandle};
 use winit::window::Window;
 
 use super::WindowError;
-use crate::view::{CpuExecutor, Drawing, Gpu, GpuError, GpuExecutor, RendererChoice, Screen};
+use crate::view::{
+    CpuExecutor, Drawing, Gpu, GpuError, GpuExecutor, KeptFrame, RendererChoice, Screen,
+};
 
 /// Shows the drawings of one renderer.
 pub(super) enum Presenter {
@@ -200,8 +202,7 @@ fn refused(error: SoftBufferError) -> WindowError {
 /// Our own code and a buffer of the window system.
 pub(super) struct Processor {
     surface: Surface<OwnedDisplayHandle, Arc<Window>>,
-    executor: CpuExecutor,
-    rows: Vec<u8>,
+    frame: KeptFrame,
     size_px: [u32; 2],
 }
 
@@ -210,23 +211,40 @@ impl Processor {
         let context = Context::new(display).map_err(refused)?;
         let surface = Surface::new(&context, Arc::clone(window)).map_err(refused)?;
         log::info!("drawing with the processor");
-        let executor = CpuExecutor::on_all_cores();
-        Ok(Self { surface, executor, rows: Vec::new(), size_px: [0, 0] })
+        Ok(Self { surface, frame: KeptFrame::on_all_cores(), size_px: [0, 0] })
     }
 
     fn present(&mut self, drawing: &Drawing, window: &Window) -> Result<(), WindowError> {
-        self.executor.execute(drawing, &mut self.rows);
-        let [Some(width), Some(height)] = self.size_px.map(NonZero::new) else { return Ok(()) };
+        self.frame.draw(drawing);
+        let [Some(width), Some(height)] = self.frame.size_px().map(NonZero::new) else {
+            return Ok(());
+        };
         self.surface.resize(width, height).map_err(refused)?;
         let mut buffer = self.surface.buffer_mut().map_err(refused)?;
-        for (to, rgba) in buffer.iter_mut().zip(self.rows.as_chunks::<4>().0) {
-            // Shifts of a word become vector instructions, and moves of its bytes do not.
-            let abgr = u32::from_le_bytes(*rgba);
-            let [red, green, blue] = [abgr & 0xff, abgr & 0xff00, abgr >> 16 & 0xff];
-            // Displays ignore the first byte, but a screenshot may take it for opacity.
-            *to = 0xff00_0000 | red << 16 | green | blue;
+        let has_last_frame = buffer.age() == 1;
+        let whole = (!has_last_frame).then_some([0, 0, width.get(), height.get()]);
+        let changed = self.frame.changed().filter(|_| has_last_frame);
+        let width = width.get() as usize;
+        for rect in whole.into_iter().chain(changed) {
+            let [left, top, columns, rows] = rect.map(|px| px as usize);
+            for first in (top..top + rows).map(|y| y * width + left) {
+                let row = first..first + columns;
+                show(&self.frame.pixels()[row.clone()], &mut buffer[row]);
+            }
         }
+        // All of the window, for another one may have covered it since.
         window.pre_present_notify();
         buffer.present().map_err(refused)
+    }
+}
+
+/// Brings pixels into the order of the window system.
+fn show(pixels: &[[u8; 4]], shown: &mut [u32]) {
+    for (to, rgba) in shown.iter_mut().zip(pixels) {
+        // Shifts of a word become vector instructions, and moves of its bytes do not.
+        let abgr = u32::from_le_bytes(*rgba);
+        let [red, green, blue] = [abgr & 0xff, abgr & 0xff00, abgr >> 16 & 0xff];
+        // Displays ignore the first byte, but a screenshot may take it for opacity.
+        *to = 0xff00_0000 | red << 16 | green | blue;
     }
 }

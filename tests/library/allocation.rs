@@ -1,8 +1,11 @@
-//! Stepping never allocates: not a method on any vector, not a race with its truth and its histories.
+//! Stepping never allocates: not a method on any vector, not a race with its truth and its histories. Nor does a
+//! processor that draws a window.
 #![expect(unsafe_code, reason = "a global allocator that counts can only be written so")]
 
 use std::alloc::{GlobalAlloc, Layout, System as SystemAllocator};
 use std::cell::Cell;
+#[cfg(feature = "view")]
+use std::num::NonZero;
 
 use regatta::loops::{ENGINES, POLICIES, Pacer, RefreshRate, TimeBase};
 use regatta::run::{Observations, Race};
@@ -16,6 +19,8 @@ use regatta::sim::integrators::{
 };
 use regatta::sim::{Elementwise, Solver, State, Stepper, System, Vector, own_method, own_rule};
 use regatta::studio::{StageCommand, Studio};
+#[cfg(feature = "view")]
+use regatta::view::{FrameRenderer, KeptFrame, egui};
 
 use super::conformance::systems::{Sparse, fresh, problem, springs};
 
@@ -335,4 +340,28 @@ fn truth_memory_matches_its_report() {
         "{} {allocated}",
         solved.bytes(Solver::Truth)
     );
+}
+
+#[cfg(feature = "view")]
+#[test]
+fn a_window_draws_its_frames_without_allocating() {
+    let mut studio = Studio::new(Scene::built_in("harbour").expect("a built-in scene"));
+    studio.apply(StageCommand::ToggleRace);
+    let mut renderer = FrameRenderer::new(4096);
+    let mut kept = KeptFrame::new(NonZero::<usize>::MIN);
+    let mut frame = |running: bool| {
+        if running {
+            studio.advance(100_000_000);
+        }
+        let input = egui::RawInput { time: Some(studio.race().t()), ..Default::default() };
+        let (_, output) = renderer.draw([320, 180], 0.5, input, &studio);
+        allocations_in(|| kept.draw(&output.drawing))
+    };
+    // Trails are full by then, and letters are known.
+    (0..400).for_each(|_| _ = frame(true));
+    let running: u64 = (0..60).map(|_| frame(true)).sum();
+    let paused: u64 = (0..60).map(|_| frame(false)).sum();
+    // New letters and one more vertex than ever need memory now and then.
+    assert!(running < 10, "{running} in 60 frames");
+    assert_eq!(paused, 0);
 }

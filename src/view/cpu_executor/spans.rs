@@ -61,9 +61,9 @@ impl Line {
 
 /// Strokes in one colour.
 #[multiversion(targets("x86_64+avx+avx2"))]
-pub(super) fn stroke(pixels: &mut [Pixel], line: &Line, colour: Pixel) {
+pub(super) fn stroke(pixels: &mut [Pixel], first: usize, line: &Line, colour: Pixel) {
     let [red, green, blue, alpha] = colour.map(f32::from);
-    blend_each(pixels, |x| {
+    blend_each(pixels, first, |x| {
         let cover = line.cover(x);
         [red * cover, green * cover, blue * cover, alpha * cover]
     });
@@ -71,9 +71,9 @@ pub(super) fn stroke(pixels: &mut [Pixel], line: &Line, colour: Pixel) {
 
 /// Strokes in a varying colour, its channels from 0 to 255.
 #[multiversion(targets("x86_64+avx+avx2"))]
-pub(super) fn stroke_ramped(pixels: &mut [Pixel], line: &Line, colour: [Ramp; 4]) {
+pub(super) fn stroke_ramped(pixels: &mut [Pixel], first: usize, line: &Line, colour: [Ramp; 4]) {
     let [red, green, blue, alpha] = colour;
-    blend_each(pixels, |x| {
+    blend_each(pixels, first, |x| {
         let cover = line.cover(x);
         [red.at(x) * cover, green.at(x) * cover, blue.at(x) * cover, alpha.at(x) * cover]
     });
@@ -95,22 +95,23 @@ pub(super) fn blend(pixels: &mut [Pixel], colour: Pixel) {
 
 /// Blends a varying colour, its channels from 0 to 255.
 #[multiversion(targets("x86_64+avx+avx2"))]
-pub(super) fn blend_ramped(pixels: &mut [Pixel], colour: [Ramp; 4]) {
+pub(super) fn blend_ramped(pixels: &mut [Pixel], first: usize, colour: [Ramp; 4]) {
     let [red, green, blue, alpha] = colour;
-    blend_each(pixels, |x| [red.at(x), green.at(x), blue.at(x), alpha.at(x)]);
+    blend_each(pixels, first, |x| [red.at(x), green.at(x), blue.at(x), alpha.at(x)]);
 }
 
 /// Blends a varying colour times the nearest texel.
 #[multiversion(targets("x86_64+avx+avx2"))]
 pub(super) fn textured(
     pixels: &mut [Pixel],
+    first: usize,
     texture: &ColorImage,
     [u, v]: [Ramp; 2],
     colour: [Ramp; 4],
 ) {
     let [width, height] = texture.size;
     for (x, pixel) in pixels.iter_mut().enumerate() {
-        let x = x as f32;
+        let x = (first + x) as f32;
         let [column, row] = [(u, width), (v, height)]
             .map(|(ramp, side)| (ramp.at(x) as i32).clamp(0, side as i32 - 1) as usize);
         let texel = texture.pixels[row * width + column].to_array();
@@ -124,11 +125,18 @@ pub(super) fn textured(
 
 /// Stores the colours of water. Channels are from 0 to 1, and places relative to the light in its reach.
 #[multiversion(targets("x86_64+avx+avx2"))]
-pub(super) fn water(pixels: &mut [Pixel], colour: [f32; 3], light: [f32; 3], x: Ramp, y: f32) {
+pub(super) fn water(
+    pixels: &mut [Pixel],
+    first: usize,
+    colour: [f32; 3],
+    light: [f32; 3],
+    x: Ramp,
+    y: f32,
+) {
     /// Steps of two levels: equal neighbours make a file smaller and faster to write.
     const LEVELS: f32 = 127.5;
     for (n, pixel) in pixels.iter_mut().enumerate() {
-        let x = x.at(n as f32);
+        let x = x.at((first + n) as f32);
         let near = max(1.0 - (x * x + y * y), 0.0);
         let near = near * near;
         let channel = |n: usize| {
@@ -139,22 +147,22 @@ pub(super) fn water(pixels: &mut [Pixel], colour: [f32; 3], light: [f32; 3], x: 
     }
 }
 
-/// Blends the colour that `source` gives for each pixel, by its index in the row.
+/// Blends the colour that `source` gives for each pixel, by its index in a row, which the pixels have from `first` on.
 ///
 /// A compiler makes vector instructions of this: blocks of one length, and for each pixel the same plain arithmetic.
 #[inline(always)]
-fn blend_each(pixels: &mut [Pixel], source: impl Fn(f32) -> [f32; 4]) {
+fn blend_each(pixels: &mut [Pixel], first: usize, source: impl Fn(f32) -> [f32; 4]) {
     let (blocks, rest) = pixels.as_chunks_mut::<BLOCK>();
     let whole = blocks.len() * BLOCK;
     for (n, block) in blocks.iter_mut().enumerate() {
-        blend_block(block, (n * BLOCK) as f32, &source);
+        blend_block(block, (first + n * BLOCK) as f32, &source);
     }
     if !rest.is_empty() {
         let mut block = [[0; 4]; BLOCK];
         for (n, pixel) in rest.iter().enumerate() {
             block[n] = *pixel;
         }
-        blend_block(&mut block, whole as f32, &source);
+        blend_block(&mut block, (first + whole) as f32, &source);
         for (n, pixel) in rest.iter_mut().enumerate() {
             *pixel = block[n];
         }

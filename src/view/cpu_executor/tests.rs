@@ -119,17 +119,17 @@ fn a_texel_is_looked_up_and_never_filtered() {
 fn a_changed_part_of_a_texture_leaves_earlier_drawings_as_they_were() {
     let mut textures = Textures::default();
     let whole = with_texture(Drawing::default(), [2, 1], vec![Color32::RED; 2]);
-    let before = textures.update(&whole);
+    let before = textures.update(&whole, Textures::clone);
     let mut part = Drawing::default();
     let image = ColorImage::new([1, 1], vec![Color32::GREEN]);
     let delta = ImageDelta::partial([1, 0], image, TextureOptions::NEAREST);
     part.textures.set.push((TextureId::default(), delta));
     part.textures.freed.push(TextureId::default());
-    let after = textures.update(&part);
-    let texels = |textures: &Textures| textures.0[&TextureId::default()].pixels.clone();
+    let after = textures.update(&part, Textures::clone);
+    let texels = |textures: &Textures| textures.present[&TextureId::default()].image.pixels.clone();
     assert_eq!(texels(&before), [Color32::RED; 2]);
     assert_eq!(texels(&after), [Color32::RED, Color32::GREEN]);
-    assert!(textures.0.is_empty());
+    assert!(textures.present.is_empty());
 }
 
 #[test]
@@ -243,19 +243,83 @@ fn a_row_drawn_in_blocks_has_the_bytes_of_its_pixels_drawn_one_by_one() {
     for turns in [ramp(-0.1, 0.2), ramp(-0.3, 2.9)] {
         let line = Line { half, across, turns, reach: 1.5, period: 5.0 };
         let mut rows = [below.clone(), below.clone(), below.clone()];
-        stroke(&mut rows[0], &line, [200, 100, 7, 220]);
-        stroke_ramped(&mut rows[1], &line, colour);
-        blend_ramped(&mut rows[2], colour);
+        stroke(&mut rows[0], 0, &line, [200, 100, 7, 220]);
+        stroke_ramped(&mut rows[1], 0, &line, colour);
+        blend_ramped(&mut rows[2], 0, colour);
         let mut alone = [below.clone(), below.clone(), below.clone()];
         for x in 0..WIDTH {
             let [half, across] = [half, across].map(|ramp| at(ramp, x));
             let of_pixel = Line { half, across, turns: at(turns, x), ..line };
             let colour = colour.map(|channel| at(channel, x));
-            stroke(&mut alone[0][x..=x], &of_pixel, [200, 100, 7, 220]);
-            stroke_ramped(&mut alone[1][x..=x], &of_pixel, colour);
-            blend_ramped(&mut alone[2][x..=x], colour);
+            stroke(&mut alone[0][x..=x], 0, &of_pixel, [200, 100, 7, 220]);
+            stroke_ramped(&mut alone[1][x..=x], 0, &of_pixel, colour);
+            blend_ramped(&mut alone[2][x..=x], 0, colour);
         }
         assert_eq!(rows, alone, "{turns:?}");
         assert!(rows.iter().all(|row| *row != below));
     }
+}
+
+/// Draws the drawing in a kept frame, which must have the pixels of a whole one. Returns the part of it that was drawn.
+fn keep(kept: &mut KeptFrame, whole: &mut CpuExecutor, drawing: &Drawing) -> f64 {
+    let before = kept.pixels().to_vec();
+    kept.draw(drawing);
+    let pixels = kept.pixels();
+    assert!(pixels.as_flattened() == paint(whole, drawing).rows, "other pixels");
+    let [width, height] = drawing.size_px.map(|side| side as usize);
+    let mut is_changed = vec![false; width * height];
+    for [left, top, columns, rows] in kept.changed().map(|rect| rect.map(|px| px as usize)) {
+        for y in top..top + rows {
+            is_changed[y * width + left..][..columns].fill(true);
+        }
+    }
+    if before.len() == pixels.len() {
+        let stale = (0..pixels.len()).find(|&n| !is_changed[n] && pixels[n] != before[n]);
+        assert_eq!(stale, None, "changed beyond what is said to be");
+    }
+    is_changed.iter().filter(|&&it| it).count() as f64 / is_changed.len() as f64
+}
+
+#[test]
+fn a_kept_frame_has_the_pixels_of_one_drawn_whole() {
+    for (scene, size_px, scale, threads) in [
+        ("harbour", [2100, 173], 0.6, 3),
+        ("spring", [640, 360], 1.0, 1),
+        ("chain", [333, 555], 0.5, 2),
+    ] {
+        let mut kept = KeptFrame::new(NonZero::new(threads).unwrap());
+        let mut whole = executor();
+        let mut drawings = race(scene, size_px, scale, 12);
+        let parts: Vec<f64> =
+            drawings.iter().map(|drawing| keep(&mut kept, &mut whole, drawing)).collect();
+        assert_eq!(parts[0], 1.0, "{scene}");
+        assert!((0.01..0.7).contains(&parts[11]), "{scene}: {parts:?}");
+        // Another size and other letters, without anything else that is new.
+        let mut last = drawings.pop().expect("twelve drawings");
+        last.size_px[1] += 1;
+        last.backdrop = None;
+        assert_eq!(keep(&mut kept, &mut whole, &last), 1.0, "{scene}");
+        assert_eq!(keep(&mut kept, &mut whole, &last), 0.0, "{scene}");
+        let lit = Color32::from_rgba_premultiplied(1, 2, 3, 4);
+        let image = ColorImage::new([9, 9], vec![lit; 81]);
+        let delta = ImageDelta::partial([40, 0], image, TextureOptions::NEAREST);
+        last.textures.set.push((TextureId::default(), delta));
+        assert!((0.01..0.9).contains(&keep(&mut kept, &mut whole, &last)), "{scene}");
+    }
+}
+
+#[test]
+fn a_frame_that_stands_still_is_not_drawn_again() {
+    let mut studio = Studio::new(Scene::built_in("harbour").unwrap());
+    studio.apply(StageCommand::ToggleRace);
+    studio.advance(2_000_000_000);
+    let mut renderer = FrameRenderer::new(4096);
+    let (mut kept, mut whole) = (KeptFrame::new(NonZero::<usize>::MIN), executor());
+    let mut part = |_| {
+        let input = egui::RawInput { time: Some(studio.race().t()), ..egui::RawInput::default() };
+        let drawing = renderer.draw([800, 450], 1.0, input, &studio).1.drawing;
+        keep(&mut kept, &mut whole, &drawing)
+    };
+    let parts: Vec<f64> = (0..30).map(&mut part).collect();
+    assert_eq!(parts[20..], [0.0; 10], "{parts:?}");
 }

@@ -32,7 +32,9 @@ pub(super) struct Triangle {
     corners: [[i64; 2]; 3],
     /// In pixels and not rounded to the grid, as graphics devices interpolate.
     corners_px: [[f32; 2]; 3],
-    rows: Range<i32>,
+    pub(super) rows: Range<i32>,
+    /// Those of all rows.
+    pub(super) columns: Range<i32>,
 }
 
 impl Triangle {
@@ -51,7 +53,7 @@ impl Triangle {
             return None;
         }
         let twice = (b[0] - a[0]) * (c[1] - a[1]) - (c[0] - a[0]) * (b[1] - a[1]);
-        (twice != 0).then_some(Self { window, corners, corners_px, rows })
+        (twice != 0).then_some(Self { window, corners, corners_px, rows, columns })
     }
 
     /// Passes each row with the columns of its pixels to `draw`.
