@@ -1,5 +1,5 @@
 //! What a frame costs, stage by stage: from events to picture, to pixels, to a file; how long the program takes from its
-//! start to the first frame; and what a window draws anew of a frame that differs little from the one before.
+//! start to the first frame; and how long the parts of a frame take that differ from the frame before, as in a window.
 
 use std::hint::black_box;
 use std::num::NonZero;
@@ -45,7 +45,7 @@ fn main() {
     }
 }
 
-/// Prints what drawing the frames of a window takes, if each is drawn whole and if only what differs is.
+/// Prints how long the frames of a window take, drawn whole and drawn only where they differ.
 fn window(name: &str, mut studio: Studio, frame_ns: i64) {
     const SIZE_PX: [u32; 2] = [1920, 1080];
     let mut renderer = FrameRenderer::new(4096);

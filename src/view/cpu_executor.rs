@@ -36,7 +36,7 @@ pub(super) struct Textures {
 #[derive(Clone, Debug)]
 struct Texture {
     image: Arc<ColorImage>,
-    /// The last change of what drawings before it may have shown.
+    /// The last change of texels that an earlier drawing may have shown.
     change: u64,
 }
 
@@ -132,7 +132,7 @@ impl Rasterizer {
         self.draw_tiles(drawing, textures, rows, None);
     }
 
-    /// Brings `rows` from the drawing before, which `tiles` was passed with, to this one.
+    /// [`draw`](Self::draw), but of `tiles` only those that differ from the drawing before, whose pixels `rows` has.
     fn draw_tiles(
         &mut self,
         drawing: &Drawing,
@@ -246,26 +246,20 @@ impl Band<'_> {
             let transform = &drawing.transforms[draw.place as usize];
             let at = Placement { window, transform };
             let tiles = self.tiles;
-            let is_drawn = |n: &usize| tiles.is_none_or(|tiles| tiles.is_changed(*n));
             match draw.kind {
                 DrawKind::Stroke => {
-                    let corners = triangles.zip(drawing.strokes.corners(&draw.indices));
-                    corners
-                        .filter(|(n, _)| is_drawn(n))
-                        .for_each(|(_, corners)| self.stroke(at, corners));
+                    let corners = drawing.strokes.corners(&draw.indices);
+                    changed(tiles, triangles, corners).for_each(|corners| self.stroke(at, corners));
                 }
                 DrawKind::OpaqueFill => {
-                    let corners = triangles.zip(drawing.triangles.corners(&draw.indices));
-                    corners
-                        .filter(|(n, _)| is_drawn(n))
-                        .for_each(|(_, corners)| self.fill(at, corners));
+                    let corners = drawing.triangles.corners(&draw.indices);
+                    changed(tiles, triangles, corners).for_each(|corners| self.fill(at, corners));
                 }
                 DrawKind::Textured(id) => {
                     let Some(texture) = textures.present.get(&id) else { continue };
-                    let corners = triangles.zip(drawing.triangles.corners(&draw.indices));
-                    corners
-                        .filter(|(n, _)| is_drawn(n))
-                        .for_each(|(_, corners)| self.textured(at, corners, &texture.image));
+                    let corners = drawing.triangles.corners(&draw.indices);
+                    changed(tiles, triangles, corners)
+                        .for_each(|corners| self.textured(at, corners, &texture.image));
                 }
             }
         }
@@ -410,6 +404,17 @@ impl Band<'_> {
             }
         }
     }
+}
+
+/// Those of the triangles, which have these numbers, that may cover a tile that has changed; all without tiles.
+fn changed<C>(
+    tiles: Option<&Tiles>,
+    numbers: Range<usize>,
+    triangles: impl Iterator<Item = C>,
+) -> impl Iterator<Item = C> {
+    let numbered = numbers.zip(triangles);
+    let drawn = numbered.filter(move |(n, _)| tiles.is_none_or(|tiles| tiles.is_changed(*n)));
+    drawn.map(|(_, corners)| corners)
 }
 
 /// The part of a scissor rectangle between two rows of a frame of this width, if any.

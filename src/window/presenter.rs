@@ -229,7 +229,7 @@ impl Processor {
             let [left, top, columns, rows] = rect.map(|px| px as usize);
             for first in (top..top + rows).map(|y| y * width + left) {
                 let row = first..first + columns;
-                show(&self.frame.pixels()[row.clone()], &mut buffer[row]);
+                copy_reordered(&self.frame.pixels()[row.clone()], &mut buffer[row]);
             }
         }
         // All of the window, for another one may have covered it since.
@@ -238,8 +238,8 @@ impl Processor {
     }
 }
 
-/// Brings pixels into the order of the window system.
-fn show(pixels: &[[u8; 4]], shown: &mut [u32]) {
+/// Copies pixels in the window system's order of channels.
+fn copy_reordered(pixels: &[[u8; 4]], shown: &mut [u32]) {
     for (to, rgba) in shown.iter_mut().zip(pixels) {
         // Shifts of a word become vector instructions, and moves of its bytes do not.
         let abgr = u32::from_le_bytes(*rgba);

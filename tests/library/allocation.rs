@@ -1,5 +1,5 @@
-//! Stepping never allocates: not a method on any vector, not a race with its truth and its histories. Nor does a
-//! processor that draws a window.
+//! Stepping never allocates: not a method on any vector, not a race with its truth and its histories. Nor does one
+//! thread that draws a window.
 #![expect(unsafe_code, reason = "a global allocator that counts can only be written so")]
 
 use std::alloc::{GlobalAlloc, Layout, System as SystemAllocator};
@@ -344,7 +344,7 @@ fn truth_memory_matches_its_report() {
 
 #[cfg(feature = "view")]
 #[test]
-fn a_window_draws_its_frames_without_allocating() {
+fn one_thread_draws_the_frames_of_a_window_without_allocating() {
     let mut studio = Studio::new(Scene::built_in("harbour").expect("a built-in scene"));
     studio.apply(StageCommand::ToggleRace);
     let mut renderer = FrameRenderer::new(4096);

@@ -8,12 +8,11 @@ use crate::drawing::Drawing;
 
 /// The frames of one renderer, drawn one after the other in the same place.
 ///
-/// A drawing draws only what differs from the drawing before, and the pixels are those of [`CpuExecutor::execute`].
+/// Only the parts that differ from the drawing before are drawn. The pixels are those of [`CpuExecutor::execute`].
 #[derive(Debug)]
 pub struct KeptFrame {
     executor: CpuExecutor,
     tiles: Tiles,
-    size_px: [u32; 2],
     rows: Vec<u8>,
 }
 
@@ -29,13 +28,12 @@ impl KeptFrame {
     }
 
     fn of(executor: CpuExecutor) -> Self {
-        Self { executor, tiles: Tiles::default(), size_px: [0; 2], rows: Vec::new() }
+        Self { executor, tiles: Tiles::default(), rows: Vec::new() }
     }
 
-    /// Draws the drawing.
+    /// Replaces the frame by this drawing, the next of its renderer.
     pub fn draw(&mut self, drawing: &Drawing) {
-        let Self { executor: CpuExecutor { textures, rasterizer }, tiles, size_px, rows } = self;
-        *size_px = drawing.size_px;
+        let Self { executor: CpuExecutor { textures, rasterizer }, tiles, rows } = self;
         textures.update(drawing, |textures| {
             rasterizer.draw_tiles(drawing, textures, rows, Some(tiles));
         });
@@ -43,7 +41,7 @@ impl KeptFrame {
 
     /// Width and height, in pixels.
     pub fn size_px(&self) -> [u32; 2] {
-        self.size_px
+        self.tiles.size_px
     }
 
     /// Red, green, blue and alpha of each pixel, top row first, no padding.

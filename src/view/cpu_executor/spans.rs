@@ -2,6 +2,8 @@
 //!
 //! A colour to draw is rounded to 8 bits a channel, and then blended in whole numbers, as graphics hardware does.
 //!
+//! The pixels may be part of a row: `first` is the index of the first of them, by which ramps go on.
+//!
 //! Each function is compiled for two sets of instructions. Neither joins a product and a sum in one rounding, so that
 //! both have the same bytes.
 

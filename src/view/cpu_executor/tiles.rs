@@ -22,7 +22,7 @@ const MIN_WIDTH: usize = 32;
 /// The tiles of the frames of one renderer.
 #[derive(Debug, Default)]
 pub(super) struct Tiles {
-    size_px: [u32; 2],
+    pub(super) size_px: [u32; 2],
     /// By rows of tiles.
     hashes: Vec<u64>,
     /// Those of the frame before.
@@ -54,8 +54,7 @@ impl Tiles {
         if mem::replace(&mut self.size_px, drawing.size_px) != drawing.size_px {
             self.before.clear();
         }
-        let [width, height] = self.size_px.map(|side| side as usize);
-        let columns = width.div_ceil(self.width());
+        let (columns, rows) = (self.columns(), (self.size_px[1] as usize).div_ceil(HEIGHT));
         let below = match (backdrop, drawing.sea) {
             (Some(Backdrop { id, .. }), _) => xxh3_64(bytes_of(&[id])),
             (None, Some(SeaRect { scissor_px, rect_px, colours })) => {
@@ -65,7 +64,7 @@ impl Tiles {
             (None, None) => 0,
         };
         self.hashes.clear();
-        self.hashes.resize(columns * height.div_ceil(HEIGHT), below);
+        self.hashes.resize(columns * rows, below);
         self.covers.clear();
         for draw in drawing.draws.iter().skip(backdrop.map_or(0, |backdrop| backdrop.draws)) {
             match draw.kind {
@@ -103,7 +102,7 @@ impl Tiles {
         let used = &mesh.vertices[least as usize..=most as usize];
         self.vertices.clear();
         self.vertices.extend(used.iter().map(Corner::hash));
-        let columns = (width as usize).div_ceil(self.width());
+        let columns = self.columns();
         for corners in triangles {
             let places = corners.map(|corner| mesh.vertices[corner as usize].at());
             let cover = at.triangle(places).map_or(Cover::default(), |it| self.cover(&it));
@@ -123,6 +122,11 @@ impl Tiles {
     /// Pixels of a tile from left to right.
     fn width(&self) -> usize {
         MIN_WIDTH.max((self.size_px[0] as usize).div_ceil(u64::BITS as usize))
+    }
+
+    /// Tiles in a row.
+    fn columns(&self) -> usize {
+        (self.size_px[0] as usize).div_ceil(self.width())
     }
 
     fn cover(&self, triangle: &Triangle) -> Cover {
@@ -196,7 +200,7 @@ impl Corner for StrokeVertex {
     }
 }
 
-/// The hash of what the triangles of a draw share.
+/// The hash that all triangles of a draw have in common.
 fn of_draw(draw: &Draw, at: Placement<'_>, textures: &Textures) -> u64 {
     let kind = match draw.kind {
         DrawKind::OpaqueFill => 0,
@@ -204,9 +208,8 @@ fn of_draw(draw: &Draw, at: Placement<'_>, textures: &Textures) -> u64 {
         // Changes are counted from 1 on.
         DrawKind::Textured(id) => textures.present.get(&id).map_or(2, |texture| 2 + texture.change),
     };
-    let ScreenTransform { origin_px: [x, y], px_per_point, .. } = at.transform;
-    let place = [*x, *y, *px_per_point].map(f32::to_bits);
+    let &ScreenTransform { origin_px: [x, y], px_per_point, .. } = at.transform;
+    let [x, y, px] = [x, y, px_per_point].map(f32::to_bits);
     let [left, top, width, height] = draw.scissor_px;
-    let [x, y, px] = place;
     xxh3_64(bytes_of(&[kind as u32, (kind >> 32) as u32, x, y, px, left, top, width, height]))
 }
